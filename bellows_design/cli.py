@@ -1,0 +1,244 @@
+"""The command ``bellows``: parse, call, print.
+
+Exit status: 0 done or approved; 1 refused, or a printability rule failed; 2 bad input; 3 the
+solver could not reach the load; 4 an internal error; 130 interrupted. Results go to stdout, all
+else to stderr. Heavy imports wait until a command needs them.
+"""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from bellows_design.terminal import Answer, answer
+
+if TYPE_CHECKING:
+    from bellows_design.design import Design
+
+app = typer.Typer(
+    name="bellows",
+    help="From the twelve numbers of a soft bellows actuator to an approved, printable STL.",
+    add_completion=False,
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+)
+
+DesignName = Annotated[
+    str,
+    typer.Argument(metavar="DESIGN", help="A shipped design (see bellows list) or a TOML file."),
+]
+Settings = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--set",
+        metavar="KEY=VALUE",
+        help="Change one value: bubble_thickness=1.2, indent.depth=0.4. Repeatable.",
+    ),
+]
+AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object instead of text.")]
+Pressure = Annotated[
+    float | None, typer.Option(metavar="MPA", help="Pressure instead of the design's, MPa.")
+]
+
+
+class Model(StrEnum):
+    """Models to evaluate with."""
+
+    auto = "auto"
+    half = "half"
+
+
+@app.callback(invoke_without_command=True)
+def _root(
+    context: typer.Context,
+    version: Annotated[bool, typer.Option("--version", help="Print the version.")] = False,
+) -> None:
+    if version:
+        from bellows_design import __version__
+
+        typer.echo(f"bellows-design {__version__}")
+        raise typer.Exit
+    if context.invoked_subcommand is None:
+        typer.echo(context.get_help())
+        raise typer.Exit(2)
+
+
+@app.command("list")
+def list_designs(as_json: AsJson = False) -> None:
+    """Name the shipped designs."""
+
+    def work() -> Answer:
+        from bellows_design.design import load_design, shipped_designs
+
+        designs = {name: load_design(name).description for name in shipped_designs()}
+        lines = [f"{name:22} {text}" for name, text in designs.items()]
+        return Answer({"designs": designs}, lines)
+
+    answer(work, as_json)
+
+
+@app.command()
+def design(
+    name: DesignName,
+    output: Annotated[
+        Path, typer.Option("-o", "--output", help="File to write: .stl, .3mf or .step.")
+    ],
+    settings: Settings = None,
+    as_json: AsJson = False,
+) -> None:
+    """Build the printed part and write it as STL, 3MF or STEP."""
+
+    def work() -> Answer:
+        from bellows_design.formats import write_part, writer_for
+        from bellows_design.pipeline import build_part
+        from bellows_design.progress import on_stderr
+
+        chosen = _load(name, settings)
+        writer_for(output)
+        _require_folder(output)
+        with on_stderr() as progress:
+            progress.stage("geometry")
+            part = build_part(chosen)
+            progress.stage(f"write {output.name}")
+            write_part(part, output)
+        content = {
+            "design": chosen.name,
+            "digest": chosen.digest,
+            "file": str(output),
+            "triangles": len(part.mesh.triangles),
+            "volume_mm3": part.mesh.volume,
+        }
+        text = f"{output}: {len(part.mesh.triangles)} triangles, {part.mesh.volume / 1000:.2f} cm³"
+        return Answer(content, [text])
+
+    answer(work, as_json)
+
+
+@app.command()
+def check(
+    name: DesignName,
+    printer: Annotated[
+        str | None, typer.Option(help="Printer profile, or a TOML file, instead of the design's.")
+    ] = None,
+    settings: Settings = None,
+    as_json: AsJson = False,
+) -> None:
+    """Check the part against the rules of a printer."""
+
+    def work() -> Answer:
+        from bellows_design import pipeline, tables
+        from bellows_design.progress import on_stderr
+        from printers import load_profile
+
+        chosen = _load(name, settings)
+        load_profile(printer or chosen.printer)
+        with on_stderr() as progress:
+            progress.stage("geometry")
+            part = pipeline.build_part(chosen)
+            progress.stage("check")
+            report = pipeline.check(chosen, part, printer)
+        content = pipeline.check_dict(chosen, report)
+        return Answer(content, tables.check_table(content), 0 if report.verdict == "pass" else 1)
+
+    answer(work, as_json)
+
+
+@app.command()
+def evaluate(
+    name: DesignName,
+    model: Annotated[Model, typer.Option(help="auto: the smallest model that answers.")] = (
+        Model.auto
+    ),
+    pressure: Pressure = None,
+    vtu: Annotated[
+        Path | None, typer.Option(help="Also write the deformed mesh, for ParaView (.vtu).")
+    ] = None,
+    settings: Settings = None,
+    as_json: AsJson = False,
+) -> None:
+    """Compute bending angle and stress under pressure."""
+
+    def work() -> Answer:
+        from bellows_design import tables
+        from bellows_design.progress import on_stderr
+
+        chosen = _load(name, settings, pressure)
+        if vtu is not None:
+            _require_suffix(vtu, ".vtu")
+            _require_folder(vtu)
+        from bellows_design import evaluation  # heavy: not before the input is known to be good
+
+        with on_stderr() as progress:
+            result = evaluation.evaluate(chosen, model=model.value, progress=progress)
+            if vtu is not None:
+                evaluation.write_vtu(result, vtu)
+        content = result.to_dict()
+        return Answer(content, tables.evaluation_table(content), 0 if result.converged else 3)
+
+    answer(work, as_json)
+
+
+@app.command()
+def run(
+    name: DesignName,
+    output: Annotated[Path, typer.Option(help="Folder of the approved models.")] = Path("exports"),
+    settings: Settings = None,
+    as_json: AsJson = False,
+) -> None:
+    """Design, check, evaluate, decide, and export what is approved."""
+
+    def work() -> Answer:
+        from bellows_design import pipeline, tables
+        from bellows_design.progress import on_stderr
+        from printers import load_profile
+
+        chosen = _load(name, settings, rename=True)
+        load_profile(chosen.printer)
+        with on_stderr() as progress:
+            outcome = pipeline.run(chosen, output, progress)
+        content = outcome.to_dict()
+        status = 0 if outcome.verdict.approved else 1 if outcome.evaluation.converged else 3
+        return Answer(content, tables.outcome_table(content), status)
+
+    answer(work, as_json)
+
+
+def _load(
+    name: str, settings: list[str] | None, pressure: float | None = None, rename: bool = False
+) -> Design:
+    """The design as named and changed; ``rename`` gives a changed one a name of its own."""
+    from bellows_design.design import load_design
+    from bellows_design.overrides import renamed_if_changed, with_overrides
+
+    original = load_design(name)
+    changes = [*(settings or []), *([] if pressure is None else [f"load.pressure={pressure!r}"])]
+    changed = with_overrides(original, changes)
+    return renamed_if_changed(changed, original) if rename else changed
+
+
+def _require_folder(path: Path) -> None:
+    from bellows_design.errors import DesignError, quoted
+
+    if not path.parent.is_dir():
+        raise DesignError(f"there is no folder {quoted(str(path.parent))} to write to.")
+    if path.is_dir():
+        raise DesignError(f"{quoted(str(path))} is a folder, not a file to write.")
+
+
+def _require_suffix(path: Path, suffix: str) -> None:
+    from bellows_design.errors import DesignError, quoted
+
+    if path.suffix.lower() != suffix:
+        raise DesignError(f"{quoted(str(path))} must end in {suffix}.")
+
+
+def main() -> None:
+    """Entry point of the command ``bellows``."""
+    app()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,45 @@
+"""What a design promises the printer: its walls, gaps and the one opening it means to have."""
+
+from __future__ import annotations
+
+from bellows_design.design import Design
+from bellows_design.tessellation import ClosedMesh
+from printers import DeclaredGap, DeclaredWall, Opening, PrintedModel
+
+
+def printed_model(design: Design, mesh: ClosedMesh) -> PrintedModel:
+    """The design's mesh with everything its designer declares about it (mm)."""
+    limits, bellows = design.limits, design.bellows
+    gaps = (DeclaredGap("bubble_distance", bellows.bubble_distance),)
+    return PrintedModel(
+        vertices=mesh.vertices,
+        triangles=mesh.triangles,
+        walls=declared_walls(design),
+        gaps=gaps if bellows.bubble_count > 1 else (),
+        openings=(port_opening(design),),
+        cross_section_limit=(limits.cross_section_width, limits.cross_section_height),
+    )
+
+
+def declared_walls(design: Design) -> tuple[DeclaredWall, ...]:
+    """Standing walls are made of lines; an indent's bottom wall, lying on the bed, of layers."""
+    standing = (
+        DeclaredWall("bubble_thickness", design.bellows.bubble_thickness),
+        DeclaredWall("tendon_thickness", design.bellows.tendon_thickness),
+        DeclaredWall("port.wall", design.port.wall),
+    )
+    if design.indent is None:
+        return standing
+    bottom = design.indent.remaining_wall(design.bellows)
+    return (*standing, DeclaredWall("bottom wall at the indent", bottom, "layers"))
+
+
+def port_opening(design: Design) -> Opening:
+    """The mouth of the port's socket, where the tube goes in."""
+    port = design.port
+    return Opening(
+        name="port",
+        centre=(-port.depth, 0.0, port.axis_height),
+        direction=(-1.0, 0.0, 0.0),
+        radius=port.tube_diameter / 2,
+    )

@@ -1,0 +1,102 @@
+"""Results as tables for people, made from the same plain values that ``--json`` prints."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from rich.box import SIMPLE
+from rich.console import RenderableType
+from rich.table import Table
+from rich.text import Text
+
+_STYLES = {"pass": "green", "warn": "yellow", "fail": "bold red"}
+
+
+def check_table(report: Mapping[str, Any]) -> Sequence[RenderableType]:
+    """A row for every rule, then the sentences of those that did not pass."""
+    table = Table(
+        title=f"{report['design']} on {report['printer']}", title_justify="left", box=SIMPLE
+    )
+    table.add_column("", no_wrap=True)
+    table.add_column("rule", no_wrap=True)
+    for heading in ("measured", "required", "where"):
+        table.add_column(heading)
+    for rule in report["rules"]:
+        verdict = Text(rule["verdict"], style=_STYLES[rule["verdict"]])
+        measured = f"{_short(rule['measured'])} {rule['unit']}"
+        cells = (rule["rule"], measured, _short(rule["required"]), rule["where"])
+        table.add_row(verdict, *(Text(cell) for cell in cells))
+    notes = [f"{r['verdict']}: {r['message']}" for r in report["rules"] if r["verdict"] != "pass"]
+    return [table, *notes, f"printability: {report['verdict']}"]
+
+
+def evaluation_table(evaluation: Mapping[str, Any]) -> Sequence[RenderableType]:
+    """The numbers an engineer asks for first."""
+    error, mesh = evaluation["error_estimate"], evaluation["mesh"]
+    solver, seconds = evaluation["solver"], evaluation["seconds"]
+    angle, stress = evaluation["bending_angle_deg"], evaluation["max_von_mises_mpa"]
+    rows = {
+        "pressure": f"{evaluation['pressure_mpa']:.4g} MPa",
+        "bending angle": _value(angle, "°") + _error(error, "bending_angle"),
+        "highest von Mises stress": _value(stress, " MPa") + _error(error, "max_von_mises"),
+        "at (x, y, z)": _place(evaluation["max_von_mises_position_mm"]),
+        "cavity volume": _value(evaluation["cavity_volume_mm3"], " mm³"),
+        "contact": _contact(evaluation["contact"]),
+        "model": f"{evaluation['model']}, {mesh['elements']} tetrahedra, "
+        f"{mesh['unknowns']} unknowns",
+        "solver": f"{solver['load_steps']} load steps, {solver['newton_iterations']} iterations, "
+        f"{solver['linear_solver']}",
+        "time": f"{seconds['total']:.1f} s",
+    }
+    table = Table(title=evaluation["design"], title_justify="left", box=SIMPLE, show_header=False)
+    for name, value in rows.items():
+        table.add_row(name, Text(value))
+    return [table, *([] if evaluation["converged"] else [_not_reached(evaluation)])]
+
+
+def outcome_table(outcome: Mapping[str, Any]) -> Sequence[RenderableType]:
+    """Check, evaluation, and the verdict with its reasons."""
+    lines: list[RenderableType] = [
+        *check_table(outcome["check"]),
+        *evaluation_table(outcome["evaluation"]),
+    ]
+    if outcome["approved"]:
+        lines.append(Text(f"APPROVED: {outcome['folder']}", style="bold green"))
+        return lines
+    lines.append(Text(f"REFUSED: {outcome['design']}", style="bold red"))
+    lines += [f"  - {reason['rule']}: {reason['message']}" for reason in outcome["reasons"]]
+    if outcome["withdrawn"] is not None:
+        lines.append(f"The earlier export {outcome['withdrawn']} was withdrawn.")
+    return lines
+
+
+def _not_reached(evaluation: Mapping[str, Any]) -> Text:
+    message = evaluation.get("message") or "the load was not reached"
+    return Text(f"NOT CONVERGED: {message}", style="bold red")
+
+
+def _error(estimate: Mapping[str, Any], key: str) -> str:
+    percent = estimate.get(f"{key}_percent")
+    return " (error not estimated)" if percent is None else f" (± {percent:.2g} % estimated)"
+
+
+def _value(value: float | None, unit: str) -> str:
+    return "unknown" if value is None else f"{value:.4g}{unit}"
+
+
+def _short(value: Any) -> str:
+    return f"{value:.4g}" if isinstance(value, float) else str(value)
+
+
+def _place(position: Sequence[float] | None) -> str:
+    if position is None:
+        return "unknown"
+    return f"({', '.join(f'{coordinate:.2f}' for coordinate in position)}) mm"
+
+
+def _contact(contact: Mapping[str, Any]) -> str:
+    if contact["detected"]:
+        return "bubbles touch: not modelled, the result does not hold past the touch"
+    gap = contact.get("min_gap_mm")
+    return "none" if gap is None else f"none, smallest gap {gap:.2f} mm"

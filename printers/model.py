@@ -1,0 +1,129 @@
+"""The part to be printed and what its designer says about it: the input of the printability check.
+
+The part stands as it will be printed: build direction +z, the bed under its lowest point.
+All lengths are in mm.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+WallKind = Literal["lines", "layers"]
+
+SMALLEST_PART = 1.0  # mm: a part in metres or inches read as millimetres falls below or beyond
+LARGEST_PART = 2000.0
+LARGEST_LENGTH = 100.0
+
+
+@dataclass(frozen=True)
+class DeclaredWall:
+    """A wall thickness the designer asks for, mm.
+
+    `kind` says what it is made of: "lines" side by side (a standing wall) or "layers" on top of
+    each other (a floor or roof).
+    """
+
+    name: str
+    thickness: float
+    kind: WallKind = "lines"
+
+    def __post_init__(self) -> None:
+        _require_length(f"wall {self.name}", self.thickness)
+        if self.kind not in ("lines", "layers"):
+            raise ValueError(f"wall {self.name}: kind is {self.kind!r}, not 'lines' or 'layers'")
+
+
+@dataclass(frozen=True)
+class DeclaredGap:
+    """A width of air between neighbouring walls on the part's outside, mm."""
+
+    name: str
+    width: float
+
+    def __post_init__(self) -> None:
+        _require_length(f"gap {self.name}", self.width)
+
+
+@dataclass(frozen=True)
+class Opening:
+    """A round hole into the cavity that is meant to be there.
+
+    `centre` (3,) mm is the middle of its mouth on the outside, `direction` (3,) the unit vector out
+    of the part, `radius` mm that of the bore.
+    """
+
+    name: str
+    centre: tuple[float, float, float]
+    direction: tuple[float, float, float]
+    radius: float
+
+    def __post_init__(self) -> None:
+        _require_length(f"radius of opening {self.name}", self.radius)
+        for label, vector in (("centre", self.centre), ("direction", self.direction)):
+            if len(vector) != 3 or not all(math.isfinite(value) for value in vector):
+                raise ValueError(
+                    f"{label} of opening {self.name} is {vector}, not three finite numbers"
+                )
+        length = math.hypot(*self.direction)
+        if abs(length - 1) > 1e-3:
+            raise ValueError(f"direction of opening {self.name} has length {length:g}, not 1")
+
+
+@dataclass(frozen=True, eq=False)
+class PrintedModel:
+    """The closed triangle mesh of a part with its declared walls, gaps and openings.
+
+    `vertices` (n, 3) mm; `triangles` (m, 3) count from 0 and run anticlockwise seen from outside;
+    vertices may be repeated as in an STL. `cross_section_limit` is the largest allowed extent in
+    (y, z), mm. Raises ValueError when the arrays are malformed or the size betrays wrong units.
+    """
+
+    vertices: NDArray[np.float64]
+    triangles: NDArray[np.int64]
+    walls: tuple[DeclaredWall, ...] = ()
+    gaps: tuple[DeclaredGap, ...] = ()
+    openings: tuple[Opening, ...] = ()
+    cross_section_limit: tuple[float, float] | None = None
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "vertices", _read_only(self.vertices, np.float64))
+        object.__setattr__(self, "triangles", _read_only(self.triangles, np.int64))
+        _require_mesh(self.vertices, self.triangles)
+        if self.cross_section_limit is not None:
+            for axis, limit in zip("yz", self.cross_section_limit, strict=True):
+                _require_length(f"cross-section limit in {axis}", limit, LARGEST_PART)
+
+
+def _read_only(values: ArrayLike, kind: type[np.generic]) -> NDArray[Any]:
+    array: NDArray[Any] = np.array(values, dtype=kind)
+    array.flags.writeable = False
+    return array
+
+
+def _require_length(name: str, value: float, largest: float = LARGEST_LENGTH) -> None:
+    if not (math.isfinite(value) and 0 < value <= largest):
+        raise ValueError(f"{name} is {value:g} mm; it must lie above 0 and up to {largest:g} mm")
+
+
+def _require_mesh(vertices: NDArray[np.float64], triangles: NDArray[np.int64]) -> None:
+    for name, array in (("vertices", vertices), ("triangles", triangles)):
+        if array.ndim != 2 or array.shape[1] != 3 or len(array) < 4:
+            raise ValueError(f"{name} have the shape {array.shape}, not (4 or more, 3)")
+    if not np.isfinite(vertices).all():
+        raise ValueError("vertices hold a coordinate that is not a finite number of mm")
+    if triangles.min() < 0 or triangles.max() >= len(vertices):
+        raise ValueError(
+            f"triangles name the vertex {triangles.min()} or {triangles.max()}, "
+            f"but vertices count from 0 to {len(vertices) - 1}"
+        )
+    largest = float(np.ptp(vertices[np.unique(triangles)], axis=0).max())
+    if not SMALLEST_PART <= largest <= LARGEST_PART:
+        raise ValueError(
+            f"the part's largest extent is {largest:g} mm; it must lie between {SMALLEST_PART:g} "
+            f"and {LARGEST_PART:g} mm (are the units millimetres?)"
+        )

@@ -1,0 +1,61 @@
+"""Finite elements for pressurised soft bodies: mixed quadratic tetrahedra, Ogden rubber.
+
+    solution = solve(Problem(mesh, material, supports, ("cavity",)), pressure=0.1)
+
+Units: mm, N, MPa, degrees. Names are imported when first used, so that a program that only needs
+the data classes does not wait for the compiled kernels.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from solver.interpolation import transfer
+    from solver.materials import Ogden
+    from solver.mesh import Mesh
+    from solver.models import Problem, SlenderAxis, Supports
+    from solver.motion import rotation
+    from solver.newton import Event, SolverOptions, solve
+    from solver.results import PathPoint, Solution, cavity_volume, write_vtu
+    from solver.stress import Peak, nodal_cauchy, nodal_von_mises, peak_von_mises
+
+_MODULES = {
+    "materials": ("Ogden",),
+    "mesh": ("Mesh",),
+    "models": ("Problem", "SlenderAxis", "Supports"),
+    "motion": ("rotation",),
+    "newton": ("Event", "SolverOptions", "solve"),
+    "results": ("PathPoint", "Solution", "cavity_volume", "write_vtu"),
+    "stress": ("Peak", "nodal_cauchy", "nodal_von_mises", "peak_von_mises"),
+    "interpolation": ("transfer",),
+}
+
+__all__ = [
+    "Event",
+    "Mesh",
+    "Ogden",
+    "PathPoint",
+    "Peak",
+    "Problem",
+    "SlenderAxis",
+    "Solution",
+    "SolverOptions",
+    "Supports",
+    "cavity_volume",
+    "nodal_cauchy",
+    "nodal_von_mises",
+    "peak_von_mises",
+    "rotation",
+    "solve",
+    "transfer",
+    "write_vtu",
+]
+
+
+def __getattr__(name: str) -> object:
+    for module, names in _MODULES.items():
+        if name in names:
+            return getattr(import_module(f"{__name__}.{module}"), name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

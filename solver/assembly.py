@@ -1,0 +1,135 @@
+"""Residual and tangent of a problem at a state, assembled straight into CSR values."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from solver import kernels
+from solver.arrays import Reals
+from solver.constraints import Numbering, number_unknowns
+from solver.elements import tetrahedron_rule, triangle_rule
+from solver.mesh import Mesh
+from solver.models import Problem
+from solver.pressure import Skin, assemble_pressure
+from solver.sparsity import Pattern, chunks, upper_pattern
+
+
+@dataclass(frozen=True)
+class State:
+    """Displacement (n, 3), mm, and hydrostatic pressure (v,), MPa, positive in compression."""
+
+    displacement: Reals
+    hydrostatic_pressure: Reals
+
+    @staticmethod
+    def zero(problem: Problem) -> State:
+        """The undeformed, unstressed body."""
+        mesh = problem.mesh
+        return State(np.zeros(mesh.nodes.shape), np.zeros(len(mesh.vertices)))
+
+
+@dataclass(frozen=True)
+class Equilibrium:
+    """How far a state is from equilibrium, over the unknowns (m,).
+
+    ``residual`` is internal minus external force (N) and constraint violation (mm^3); ``force``
+    its derivative with respect to the applied pressure (mm^2); ``tangent`` the CSR values of its
+    derivative with respect to the unknowns, empty if not asked for. ``smallest_jacobian`` is the
+    least J of all quadrature points; the rest is meaningless unless it is positive.
+    """
+
+    residual: Reals
+    force: Reals
+    tangent: Reals
+    smallest_jacobian: float
+
+    @property
+    def admissible(self) -> bool:
+        """No element is turned inside out and every number is finite."""
+        finite = np.isfinite(self.residual).all() and np.isfinite(self.tangent).all()
+        return bool(self.smallest_jacobian > 0 and finite)
+
+
+class Assembly:
+    """A problem with everything that depends on its mesh alone: numbering, pattern, places."""
+
+    problem: Problem
+    numbering: Numbering
+    pattern: Pattern
+
+    def __init__(self, problem: Problem) -> None:
+        mesh = problem.mesh
+        self.problem = problem
+        self.numbering = number_unknowns(mesh, problem.supports)
+        check_orientation(mesh)
+        dofs = self.numbering.of_tets(mesh)
+        self.pattern = upper_pattern(dofs, self.numbering.size)
+        self._places = kernels.Places(*chunks(mesh), dofs, self.pattern.entries(dofs))
+        self._solid = solid(problem)
+        self._skin = self._pressurised_skin()
+
+    def evaluate(self, state: State, pressure: float, tangent: bool = True) -> Equilibrium:
+        """Residual, load and tangent at ``state`` under the applied ``pressure`` (MPa)."""
+        residual = np.zeros(self.numbering.size)
+        force = np.zeros(self.numbering.size)
+        values = np.zeros(len(self.pattern.indices) if tangent else 0)
+        jacobians = np.empty(len(self.problem.mesh.tets))
+        displacement = np.ascontiguousarray(state.displacement)
+        kernels.assemble(
+            self._solid, self._places, displacement, state.hydrostatic_pressure,
+            tangent, residual, values, jacobians,
+        )  # fmt: skip
+        assemble_pressure(self._skin, displacement, pressure, tangent, force, values)
+        residual += pressure * force
+        return Equilibrium(residual, force, values, float(jacobians.min(initial=np.inf)))
+
+    def energy(self, state: State) -> float:
+        """Pi of the solid alone, N mm: its gradient is the residual at zero pressure."""
+        return float(
+            kernels.total_energy(self._solid, state.displacement, state.hydrostatic_pressure)[0]
+        )
+
+    def _pressurised_skin(self) -> Skin:
+        rule = triangle_rule()
+        triangles = self.problem.mesh.triangles(*self.problem.pressurised)
+        dofs = self.numbering.of_triangles(triangles)
+        return Skin(
+            nodes=self.problem.mesh.nodes,
+            triangles=triangles,
+            shapes=rule.quadratic,
+            gradients=rule.gradients,
+            weights=rule.weights,
+            dofs=dofs,
+            entries=self.pattern.entries(dofs),
+        )
+
+
+def solid(problem: Problem) -> kernels.Solid:
+    """Mesh, material and quadrature of a problem as the kernels see them."""
+    mesh, material, rule = problem.mesh, problem.material, tetrahedron_rule()
+    mu, alpha = material.coefficients
+    return kernels.Solid(
+        nodes=mesh.nodes,
+        tets=mesh.tets,
+        tet_vertices=mesh.tet_vertices,
+        mu=mu,
+        alpha=alpha,
+        compliance=material.compliance,
+        gradients=rule.gradients,
+        linear=rule.linear,
+        weights=rule.weights,
+    )
+
+
+def check_orientation(mesh: Mesh) -> None:
+    """Raise ``ValueError`` if a tetrahedron has no positive volume at a quadrature point."""
+    tangents = np.einsum("qad,eai->eqdi", tetrahedron_rule().gradients, mesh.nodes[mesh.tets])
+    smallest = np.linalg.det(tangents).min(axis=1)
+    if not (smallest > 0).all():
+        worst = int(smallest.argmin())
+        raise ValueError(
+            f"mesh: tetrahedron {worst} is turned inside out "
+            f"(Jacobian {smallest[worst]:.3g} mm^3, must be positive)."
+        )

@@ -1,0 +1,591 @@
+"""Compiled kernels of the solid: spectral Ogden response and element loops.
+
+One file on purpose: numba's cache notices changes of a function's own file only, so a leaf kept
+elsewhere could leave a stale kernel behind.
+
+Energy of the mixed form, with the hydrostatic pressure q (positive in compression) as a field:
+
+    Pi(u, q) = integral of  W(e) - q (J - 1) - q^2 / (2 K)
+
+where e_i = ln(lambda_i) - ln(J) / 3 are the isochoric principal log stretches. Residual and
+tangent are its first and second derivatives, so the tangent is symmetric. With dJ = 0 the last
+term vanishes (1 / K = 0). Everything starts from the displacement gradient H and the spectrum of
+b - 1 = H + H^T + H H^T, so that small strains keep full relative precision.
+
+Ogden in Abaqus's form, W = sum 2 mu / alpha^2 (sum_i exp(alpha e_i) - 3), is evaluated with
+phi1(x) = expm1(x) / x and phi2(x) = (exp(x) - 1 - x) / x^2, which need no switch at equal
+stretches nor at alpha -> 0 (Hencky).
+
+Local numbering of an element's 34 unknowns: 3 a + i for displacement i of node a, 30 + k for the
+pressure of vertex k.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit, prange
+
+from solver.arrays import Integers, Reals
+
+UNKNOWNS = 34
+
+
+class Solid(NamedTuple):
+    """A meshed body as the kernels see it.
+
+    ``nodes`` (n, 3), ``tets`` (e, 10), ``tet_vertices`` (e, 4) in the numbering of pressures;
+    Ogden's ``mu`` and ``alpha`` (terms,), ``compliance`` = 1 / K; at the q quadrature points the
+    ``gradients`` (q, 10, 3) of the quadratic shape functions with respect to (r, s, t), the values
+    of the ``linear`` ones (q, 4), and ``weights`` (q,).
+    """
+
+    nodes: Reals
+    tets: Integers
+    tet_vertices: Integers
+    mu: Reals
+    alpha: Reals
+    compliance: float
+    gradients: Reals
+    linear: Reals
+    weights: Reals
+
+
+class Places(NamedTuple):
+    """Where elements are added in, and in which order.
+
+    Chunk c has the elements ``order[chunks[c]:chunks[c + 1]]``; chunks ``colours[k]`` to
+    ``colours[k + 1]`` share no node, so they can be added in parallel. ``dofs`` (e, 34) and
+    ``entries`` (e, 595) are the places in the residual and in the CSR values, -1 where an unknown
+    is prescribed.
+    """
+
+    order: Integers
+    chunks: Integers
+    colours: Integers
+    dofs: Integers
+    entries: Integers
+
+
+@njit(cache=True, error_model="numpy")
+def phi1(x: float) -> float:
+    """(exp(x) - 1) / x, 1 at 0."""
+    return math.expm1(x) / x if x != 0.0 else 1.0
+
+
+@njit(cache=True, error_model="numpy")
+def phi2(x: float) -> float:
+    """(exp(x) - 1 - x) / x^2, 1/2 at 0; by its series where the difference would cancel."""
+    if abs(x) >= 0.5:
+        return (math.expm1(x) - x) / (x * x)
+    total = 0.5
+    term = 0.5
+    for k in range(3, 18):
+        term *= x / k
+        total += term
+    return total
+
+
+@njit(cache=True, error_model="numpy")
+def sinhc(x: float) -> float:
+    """sinh(x) / x, 1 at 0."""
+    return math.sinh(x) / x if x != 0.0 else 1.0
+
+
+@njit(cache=True, error_model="numpy")
+def x_coth_x(x: float) -> float:
+    """x coth(x), 1 at 0."""
+    return x / math.tanh(x) if x != 0.0 else 1.0
+
+
+@njit(cache=True, error_model="numpy")
+def ogden_energy(e: Reals, mu: Reals, alpha: Reals) -> float:
+    """W of isochoric log stretches e (3,): sum 2 mu sum_i e_i^2 phi2(alpha e_i), MPa."""
+    energy = 0.0
+    for k in range(mu.size):
+        for i in range(3):
+            energy += 2.0 * mu[k] * e[i] * e[i] * phi2(alpha[k] * e[i])
+    return energy
+
+
+@njit(cache=True, error_model="numpy")
+def ogden_stress(e: Reals, mu: Reals, alpha: Reals, stress: Reals) -> None:
+    """Undeviated principal Kirchhoff stresses sum 2 mu e_i phi1(alpha e_i) into ``stress``."""
+    for i in range(3):
+        stress[i] = 0.0
+        for k in range(mu.size):
+            stress[i] += 2.0 * mu[k] * e[i] * phi1(alpha[k] * e[i])
+
+
+@njit(cache=True, error_model="numpy")
+def ogden_stiffness(e: Reals, mu: Reals, alpha: Reals, stiffness: Reals) -> None:
+    """Derivatives of ``ogden_stress`` with respect to e_i, sum 2 mu exp(alpha e_i)."""
+    for i in range(3):
+        stiffness[i] = 0.0
+        for k in range(mu.size):
+            stiffness[i] += 2.0 * mu[k] * math.exp(alpha[k] * e[i])
+
+
+@njit(cache=True, error_model="numpy")
+def divided_stress(mean: float, gap: float, mu: Reals, alpha: Reals) -> float:
+    """(tau_i - tau_j) / (e_i - e_j) from the mean and the gap of e_i and e_j, exact at gap 0."""
+    total = 0.0
+    for k in range(mu.size):
+        total += 2.0 * mu[k] * math.exp(alpha[k] * mean) * sinhc(0.5 * alpha[k] * gap)
+    return total
+
+
+@njit(cache=True, error_model="numpy")
+def shear_stiffness(divided: float, gap: float, stress_sum: float) -> float:
+    """(tau_i l_j^2 - tau_j l_i^2) / (l_i^2 - l_j^2), l = stretches with log gap ``gap``."""
+    return 0.5 * divided * x_coth_x(gap) - 0.5 * stress_sum
+
+
+@njit(cache=True, error_model="numpy")
+def jacobi(a: Reals, vectors: Reals) -> None:
+    """Eigenvalues of the symmetric (3, 3) ``a``, left on its diagonal; ``vectors`` in columns.
+
+    Cyclic Jacobi rotations until the rest is negligible against rounding; equal eigenvalues need
+    no special care.
+    """
+    for i in range(3):
+        for j in range(3):
+            vectors[i, j] = 1.0 if i == j else 0.0
+    for _ in range(20):
+        rest = abs(a[0, 1]) + abs(a[0, 2]) + abs(a[1, 2])
+        if not rest > 1e-18 * (abs(a[0, 0]) + abs(a[1, 1]) + abs(a[2, 2])):
+            return
+        for p in range(2):
+            for q in range(p + 1, 3):
+                if a[p, q] == 0.0:
+                    continue
+                ratio = 0.5 * (a[q, q] - a[p, p]) / a[p, q]
+                t = math.copysign(1.0, ratio) / (abs(ratio) + math.hypot(1.0, ratio))
+                c = 1.0 / math.sqrt(1.0 + t * t)
+                s = t * c
+                shift = t * a[p, q]
+                a[p, p] -= shift
+                a[q, q] += shift
+                a[p, q] = 0.0
+                a[q, p] = 0.0
+                r = 3 - p - q
+                rp = c * a[r, p] - s * a[r, q]
+                rq = s * a[r, p] + c * a[r, q]
+                a[r, p] = rp
+                a[p, r] = rp
+                a[r, q] = rq
+                a[q, r] = rq
+                for i in range(3):
+                    vp = c * vectors[i, p] - s * vectors[i, q]
+                    vectors[i, q] = s * vectors[i, p] + c * vectors[i, q]
+                    vectors[i, p] = vp
+
+
+@njit(cache=True, error_model="numpy")
+def volume_change(h: Reals) -> float:
+    """J - 1 from the displacement gradient h (3, 3), without cancellation at small strain."""
+    trace = h[0, 0] + h[1, 1] + h[2, 2]
+    minors = (
+        h[0, 0] * h[1, 1] - h[0, 1] * h[1, 0]
+        + h[1, 1] * h[2, 2] - h[1, 2] * h[2, 1]
+        + h[2, 2] * h[0, 0] - h[2, 0] * h[0, 2]
+    )  # fmt: skip
+    determinant = (
+        h[0, 0] * (h[1, 1] * h[2, 2] - h[1, 2] * h[2, 1])
+        - h[0, 1] * (h[1, 0] * h[2, 2] - h[1, 2] * h[2, 0])
+        + h[0, 2] * (h[1, 0] * h[2, 1] - h[1, 1] * h[2, 0])
+    )
+    return trace + minors + determinant
+
+
+@njit(cache=True, error_model="numpy")
+def spectrum(h: Reals, b: Reals, vectors: Reals, logs: Reals) -> None:
+    """Principal axes of b = (1 + h)(1 + h)^T and isochoric log stretches.
+
+    Leaves the eigenvalues of b - 1 on the diagonal of the scratch ``b``, the principal axes in the
+    columns of ``vectors`` and e_i in ``logs``.
+    """
+    for i in range(3):
+        for j in range(3):
+            b[i, j] = h[i, j] + h[j, i]
+            for k in range(3):
+                b[i, j] += h[i, k] * h[j, k]
+    jacobi(b, vectors)
+    mean = 0.0
+    for i in range(3):
+        logs[i] = 0.5 * math.log1p(b[i, i])
+        mean += logs[i] / 3.0
+    for i in range(3):
+        logs[i] -= mean
+
+
+@njit(cache=True, error_model="numpy")
+def principal_response(
+    logs: Reals,
+    b: Reals,
+    spherical: float,
+    mu: Reals,
+    alpha: Reals,
+    stress: Reals,
+    normal: Reals,
+    shear: Reals,
+) -> None:
+    """Kirchhoff stress and its spatial tangent in principal axes.
+
+    ``logs`` and the diagonal of ``b`` as ``spectrum`` leaves them; ``spherical`` = -q J is added
+    to the deviatoric Ogden part. Fills ``stress`` (3,), ``normal`` (3, 3) = d tau_i / d ln(l_j)
+    - 2 tau_i delta_ij, and ``shear`` (3,) of the pairs (0, 1) (1, 2) (2, 0).
+    """
+    stiffness = np.empty(3)
+    ogden_stress(logs, mu, alpha, stress)
+    ogden_stiffness(logs, mu, alpha, stiffness)
+    mean_stress = (stress[0] + stress[1] + stress[2]) / 3.0
+    mean_stiffness = (stiffness[0] + stiffness[1] + stiffness[2]) / 9.0
+    for i in range(3):
+        stress[i] += spherical - mean_stress
+    for i in range(3):
+        for j in range(3):
+            normal[i, j] = spherical + mean_stiffness - (stiffness[i] + stiffness[j]) / 3.0
+        normal[i, i] += stiffness[i] - 2.0 * stress[i]
+    for i in range(3):
+        j = (i + 1) % 3
+        gap = 0.5 * math.log1p((b[i, i] - b[j, j]) / (1.0 + b[j, j]))
+        divided = divided_stress(0.5 * (logs[i] + logs[j]), gap, mu, alpha)
+        shear[i] = shear_stiffness(divided, gap, stress[i] + stress[j])
+
+
+@njit(cache=True, error_model="numpy")
+def to_global_axes(
+    vectors: Reals, stress: Reals, normal: Reals, shear: Reals, tau: Reals, stiffness: Reals
+) -> None:
+    """Rotate a principal response into ``tau`` (6,) and ``stiffness`` (6, 6).
+
+    Voigt order xx, yy, zz, xy, yz, zx, with engineering shear strains.
+    """
+    dyads = np.empty((6, 6))  # rows: n_i n_i, then n_i n_j + n_j n_i of the pairs
+    for i in range(3):
+        j = (i + 1) % 3
+        for c in range(6):
+            p = c if c < 3 else c - 3
+            q = c if c < 3 else (c - 2) % 3
+            dyads[i, c] = vectors[p, i] * vectors[q, i]
+            dyads[3 + i, c] = vectors[p, i] * vectors[q, j] + vectors[q, i] * vectors[p, j]
+    for c in range(6):
+        tau[c] = 0.0
+        for i in range(3):
+            tau[c] += stress[i] * dyads[i, c]
+    for c in range(6):
+        for d in range(c, 6):
+            total = 0.0
+            for i in range(3):
+                total += shear[i] * dyads[3 + i, c] * dyads[3 + i, d]
+                for j in range(3):
+                    total += normal[i, j] * dyads[i, c] * dyads[j, d]
+            stiffness[c, d] = total
+            stiffness[d, c] = total
+
+
+@njit(cache=True, error_model="numpy")
+def reference_gradients(x: Reals, local_gradients: Reals, gradients: Reals) -> float:
+    """Shape gradients (10, 3) on the reference body at one point; returns det(dX / dr).
+
+    ``x`` (10, 3) node coordinates, ``local_gradients`` (10, 3) with respect to (r, s, t).
+    """
+    m = np.zeros((3, 3))  # m[i, j] = dX_j / dr_i
+    for a in range(10):
+        for i in range(3):
+            for j in range(3):
+                m[i, j] += local_gradients[a, i] * x[a, j]
+    inverse = np.empty((3, 3))
+    determinant = invert(m, inverse)
+    for a in range(10):
+        for j in range(3):
+            gradients[a, j] = (
+                inverse[j, 0] * local_gradients[a, 0]
+                + inverse[j, 1] * local_gradients[a, 1]
+                + inverse[j, 2] * local_gradients[a, 2]
+            )
+    return determinant
+
+
+@njit(cache=True, error_model="numpy")
+def invert(m: Reals, inverse: Reals) -> float:
+    """Inverse of a (3, 3) matrix by cofactors; returns the determinant."""
+    for i in range(3):
+        for j in range(3):
+            k, kk = (j + 1) % 3, (j + 2) % 3
+            n, nn = (i + 1) % 3, (i + 2) % 3
+            inverse[i, j] = m[k, n] * m[kk, nn] - m[k, nn] * m[kk, n]
+    determinant = m[0, 0] * inverse[0, 0] + m[0, 1] * inverse[1, 0] + m[0, 2] * inverse[2, 0]
+    for i in range(3):
+        for j in range(3):
+            inverse[i, j] /= determinant
+    return determinant
+
+
+@njit(cache=True, error_model="numpy")
+def displacement_gradient(u: Reals, gradients: Reals, h: Reals) -> None:
+    """h (3, 3) = du_i / dX_j from node displacements u (10, 3)."""
+    for i in range(3):
+        for j in range(3):
+            h[i, j] = 0.0
+            for a in range(10):
+                h[i, j] += u[a, i] * gradients[a, j]
+
+
+@njit(cache=True, error_model="numpy")
+def element_energy(solid: Solid, x: Reals, u: Reals, q: Reals) -> tuple[float, float]:
+    """Pi of one element, N mm, and its volume, mm^3; NaN where J <= 0. See the module's text."""
+    gradients = np.empty((10, 3))
+    h = np.empty((3, 3))
+    b = np.empty((3, 3))
+    vectors = np.empty((3, 3))
+    logs = np.empty(3)
+    energy = 0.0
+    volume = 0.0
+    for point in range(solid.weights.size):
+        dv = solid.weights[point] * reference_gradients(x, solid.gradients[point], gradients)
+        displacement_gradient(u, gradients, h)
+        spectrum(h, b, vectors, logs)
+        pressure = 0.0
+        for k in range(4):
+            pressure += solid.linear[point, k] * q[k]
+        change = volume_change(h)
+        if change <= -1.0:
+            return np.nan, np.nan
+        density = ogden_energy(logs, solid.mu, solid.alpha) - pressure * change
+        energy += dv * (density - 0.5 * solid.compliance * pressure * pressure)
+        volume += dv
+    return energy, volume
+
+
+@njit(cache=True, error_model="numpy")
+def element_response(
+    solid: Solid, x: Reals, u: Reals, q: Reals, tangent: bool, r: Reals, k: Reals
+) -> float:
+    """Residual r (34,) and, if ``tangent``, the upper half of the tangent k (34, 34).
+
+    ``x``, ``u`` (10, 3) reference coordinates and displacements, mm; ``q`` (4,) pressures, MPa.
+    Returns the smallest J of the quadrature points; unless it is positive r and k are
+    meaningless.
+    """
+    gradients = np.empty((10, 3))
+    g = np.empty((10, 3))
+    h = np.empty((3, 3))
+    f = np.empty((3, 3))
+    inverse = np.empty((3, 3))
+    b = np.empty((3, 3))
+    vectors = np.empty((3, 3))
+    logs = np.empty(3)
+    stress = np.empty(3)
+    normal = np.empty((3, 3))
+    shear = np.empty(3)
+    tau = np.empty(6)
+    stiffness = np.empty((6, 6))
+    r[:] = 0.0
+    if tangent:
+        k[:, :] = 0.0
+    smallest = np.inf
+    for point in range(solid.weights.size):
+        dv = solid.weights[point] * reference_gradients(x, solid.gradients[point], gradients)
+        displacement_gradient(u, gradients, h)
+        change = volume_change(h)
+        jacobian = 1.0 + change
+        if not jacobian > 0.0:
+            return jacobian
+        smallest = min(smallest, jacobian)
+        for i in range(3):
+            for j in range(3):
+                f[i, j] = h[i, j] + (1.0 if i == j else 0.0)
+        invert(f, inverse)
+        for a in range(10):
+            for i in range(3):
+                g[a, i] = (
+                    gradients[a, 0] * inverse[0, i]
+                    + gradients[a, 1] * inverse[1, i]
+                    + gradients[a, 2] * inverse[2, i]
+                )
+        pressure = 0.0
+        for v in range(4):
+            pressure += solid.linear[point, v] * q[v]
+        spectrum(h, b, vectors, logs)
+        principal_response(
+            logs, b, -pressure * jacobian, solid.mu, solid.alpha, stress, normal, shear
+        )
+        to_global_axes(vectors, stress, normal, shear, tau, stiffness)
+        for a in range(10):
+            r[3 * a] += dv * (tau[0] * g[a, 0] + tau[3] * g[a, 1] + tau[5] * g[a, 2])
+            r[3 * a + 1] += dv * (tau[3] * g[a, 0] + tau[1] * g[a, 1] + tau[4] * g[a, 2])
+            r[3 * a + 2] += dv * (tau[5] * g[a, 0] + tau[4] * g[a, 1] + tau[2] * g[a, 2])
+        for v in range(4):
+            r[30 + v] -= dv * solid.linear[point, v] * (change + solid.compliance * pressure)
+        if tangent:
+            _add_displacement_tangent(g, tau, stiffness, dv, k)
+            _add_pressure_tangent(g, solid.linear[point], dv * jacobian, dv * solid.compliance, k)
+    return smallest
+
+
+@njit(cache=True, error_model="numpy")
+def _add_displacement_tangent(g: Reals, tau: Reals, stiffness: Reals, dv: float, k: Reals) -> None:
+    """Material part B_a^T D B_b and geometric part (g_a . tau g_b) 1, for b >= a."""
+    for b in range(10):
+        x, y, z = dv * g[b, 0], dv * g[b, 1], dv * g[b, 2]
+        tx = tau[0] * x + tau[3] * y + tau[5] * z
+        ty = tau[3] * x + tau[1] * y + tau[4] * z
+        tz = tau[5] * x + tau[4] * y + tau[2] * z
+        for i in range(3):
+            # one column of D B_b
+            p, q, s = i, 3 + i, 3 + (i + 2) % 3
+            gi, gq, gs = g[b, i] * dv, g[b, (i + 1) % 3] * dv, g[b, (i + 2) % 3] * dv
+            c0 = stiffness[0, p] * gi + stiffness[0, q] * gq + stiffness[0, s] * gs
+            c1 = stiffness[1, p] * gi + stiffness[1, q] * gq + stiffness[1, s] * gs
+            c2 = stiffness[2, p] * gi + stiffness[2, q] * gq + stiffness[2, s] * gs
+            c3 = stiffness[3, p] * gi + stiffness[3, q] * gq + stiffness[3, s] * gs
+            c4 = stiffness[4, p] * gi + stiffness[4, q] * gq + stiffness[4, s] * gs
+            c5 = stiffness[5, p] * gi + stiffness[5, q] * gq + stiffness[5, s] * gs
+            column = 3 * b + i
+            for a in range(b + 1):
+                ax, ay, az = g[a, 0], g[a, 1], g[a, 2]
+                k[3 * a, column] += ax * c0 + ay * c3 + az * c5
+                k[3 * a + 1, column] += ay * c1 + ax * c3 + az * c4
+                k[3 * a + 2, column] += az * c2 + ay * c4 + ax * c5
+                k[3 * a + i, column] += ax * tx + ay * ty + az * tz
+
+
+@njit(cache=True, error_model="numpy")
+def _add_pressure_tangent(
+    g: Reals, linear: Reals, jacobian_dv: float, compliance_dv: float, k: Reals
+) -> None:
+    """Coupling -J g_a N_k and, for a finite bulk modulus, -N_k N_l / K."""
+    for v in range(4):
+        factor = jacobian_dv * linear[v]
+        for a in range(10):
+            for i in range(3):
+                k[3 * a + i, 30 + v] -= factor * g[a, i]
+        for w in range(v, 4):
+            k[30 + v, 30 + w] -= compliance_dv * linear[v] * linear[w]
+
+
+@njit(cache=True, error_model="numpy")
+def assemble_chunk(
+    solid: Solid,
+    places: Places,
+    chunk: int,
+    displacement: Reals,
+    pressure: Reals,
+    tangent: bool,
+    residual: Reals,
+    values: Reals,
+    jacobians: Reals,
+) -> None:
+    """Add the elements of one chunk; arguments as for ``assemble``."""
+    x = np.empty((10, 3))
+    u = np.empty((10, 3))
+    q = np.empty(4)
+    r = np.empty(UNKNOWNS)
+    k = np.empty((UNKNOWNS, UNKNOWNS))
+    for position in range(places.chunks[chunk], places.chunks[chunk + 1]):
+        element = places.order[position]
+        for a in range(10):
+            node = solid.tets[element, a]
+            for i in range(3):
+                x[a, i] = solid.nodes[node, i]
+                u[a, i] = displacement[node, i]
+        for v in range(4):
+            q[v] = pressure[solid.tet_vertices[element, v]]
+        jacobians[element] = element_response(solid, x, u, q, tangent, r, k)
+        for i in range(UNKNOWNS):
+            if places.dofs[element, i] >= 0:
+                residual[places.dofs[element, i]] += r[i]
+        if tangent:
+            entry = 0
+            for i in range(UNKNOWNS):
+                for j in range(i, UNKNOWNS):
+                    if places.entries[element, entry] >= 0:
+                        values[places.entries[element, entry]] += k[i, j]
+                    entry += 1
+
+
+@njit(cache=True, error_model="numpy", parallel=True)
+def assemble(
+    solid: Solid,
+    places: Places,
+    displacement: Reals,
+    pressure: Reals,
+    tangent: bool,
+    residual: Reals,
+    values: Reals,
+    jacobians: Reals,
+) -> None:
+    """Add the elements' residuals to ``residual`` and tangents to the CSR ``values``.
+
+    ``displacement`` (n, 3), ``pressure`` (v,). ``jacobians`` (e,) takes each element's smallest J.
+    Chunks of a colour go in parallel, colours one after the other: the sums do not depend on the
+    number of threads.
+    """
+    for colour in range(places.colours.size - 1):
+        first, end = places.colours[colour], places.colours[colour + 1]
+        if end - first == 1:  # waking the other threads would cost more than it saves
+            assemble_chunk(
+                solid, places, first, displacement, pressure, tangent, residual, values, jacobians
+            )
+        else:
+            for c in prange(first, end):
+                assemble_chunk(
+                    solid, places, c, displacement, pressure, tangent, residual, values, jacobians
+                )
+
+
+@njit(cache=True, error_model="numpy")
+def total_energy(solid: Solid, displacement: Reals, pressure: Reals) -> tuple[float, float]:
+    """Pi of the whole solid, N mm, and its volume, mm^3."""
+    energy = 0.0
+    volume = 0.0
+    for element in range(solid.tets.shape[0]):
+        nodes = solid.tets[element]
+        corners = solid.tet_vertices[element]
+        part, size = element_energy(
+            solid, solid.nodes[nodes], displacement[nodes], pressure[corners]
+        )
+        energy += part
+        volume += size
+    return energy, volume
+
+
+@njit(cache=True, error_model="numpy", parallel=True)
+def deviatoric_stress(solid: Solid, displacement: Reals, stress: Reals, dv: Reals) -> None:
+    """Deviatoric Cauchy stress at the quadrature points into ``stress`` (e, q, 6), MPa.
+
+    Voigt order xx, yy, zz, xy, yz, zx. ``dv`` (e, q) takes the reference volumes of the points,
+    mm^3.
+    """
+    for element in prange(solid.tets.shape[0]):
+        x = np.empty((10, 3))
+        u = np.empty((10, 3))
+        gradients = np.empty((10, 3))
+        h = np.empty((3, 3))
+        b = np.empty((3, 3))
+        vectors = np.empty((3, 3))
+        logs = np.empty(3)
+        principal = np.empty(3)
+        for a in range(10):
+            for i in range(3):
+                x[a, i] = solid.nodes[solid.tets[element, a], i]
+                u[a, i] = displacement[solid.tets[element, a], i]
+        for point in range(solid.weights.size):
+            determinant = reference_gradients(x, solid.gradients[point], gradients)
+            dv[element, point] = determinant * solid.weights[point]
+            displacement_gradient(u, gradients, h)
+            spectrum(h, b, vectors, logs)
+            ogden_stress(logs, solid.mu, solid.alpha, principal)
+            mean = (principal[0] + principal[1] + principal[2]) / 3.0
+            jacobian = 1.0 + volume_change(h)
+            for c in range(6):
+                p = c if c < 3 else c - 3
+                s = c if c < 3 else (c - 2) % 3
+                total = 0.0
+                for i in range(3):
+                    total += (principal[i] - mean) * vectors[p, i] * vectors[s, i]
+                stress[element, point, c] = total / jacobian

@@ -1,0 +1,74 @@
+"""What is to be solved: a mesh, a material, supports and pressurised surfaces."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
+
+import numpy as np
+
+from solver.materials import Ogden
+from solver.mesh import Mesh
+
+
+@dataclass(frozen=True)
+class Supports:
+    """Surfaces that are held.
+
+    - ``clamped``: surfaces with zero displacement.
+    - ``symmetry``: surface -> axis (0, 1, 2) whose displacement is zero on it.
+    """
+
+    clamped: tuple[str, ...] = ()
+    symmetry: Mapping[str, int] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        for surface, axis in self.symmetry.items():
+            if axis not in (0, 1, 2):
+                raise ValueError(
+                    f"supports: the symmetry axis of {surface!r} must be 0, 1 or 2, got {axis}."
+                )
+        object.__setattr__(self, "clamped", tuple(self.clamped))
+        object.__setattr__(self, "symmetry", MappingProxyType(dict(self.symmetry)))
+
+
+@dataclass(frozen=True)
+class SlenderAxis:
+    """A slender body along +x that bends in the plane normal to y.
+
+    ``stations``: at least two ascending positions along x, mm. The first is where the body is
+    held; the others follow its parts (for a bellows: middles of bubbles and gaps, and the tip).
+    """
+
+    stations: tuple[float, ...]
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "stations", tuple(float(x) for x in self.stations))
+        if len(self.stations) < 2 or not (np.diff(self.stations) > 0).all():
+            raise ValueError(
+                "axis: stations must be at least two positions in mm in ascending order, "
+                f"got {self.stations}."
+            )
+
+
+@dataclass(frozen=True)
+class Problem:
+    """A hyperelastic solid under a follower pressure on the surfaces ``pressurised``.
+
+    With an ``axis`` the nonlinear solver moves the body by finite rotations (``solver.motion``).
+    Raises ``ValueError`` when a surface is unknown or the supports leave a rigid motion free.
+    """
+
+    mesh: Mesh
+    material: Ogden
+    supports: Supports
+    pressurised: tuple[str, ...]
+    axis: SlenderAxis | None = None
+
+    def __post_init__(self) -> None:
+        from solver.constraints import check_supports
+
+        object.__setattr__(self, "pressurised", tuple(self.pressurised))
+        self.mesh.triangles(*self.pressurised)
+        check_supports(self.mesh, self.supports)

@@ -1,0 +1,125 @@
+"""Follower pressure on six-node triangles, its tangent, and the volume a surface encloses.
+
+With x(r, s) the deformed triangle, n da = x_r cross x_s dr ds is quartic at most once multiplied
+by shape functions, so the six-point rule integrates everything here exactly.
+
+The derivative of N_a n da is not symmetric on one triangle. Summed over a surface whose rim is
+either held or slides in a symmetry plane, the skew parts cancel (they are rim integrals: the
+force is minus the gradient of P times the enclosed volume), so only the symmetric part is
+assembled. On a surface with a free rim the force stays right and Newton's tail turns linear.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from solver.arrays import Integers, Reals
+from solver.elements import triangle_rule
+from solver.mesh import Mesh
+
+UNKNOWNS = 18
+
+
+class Skin(NamedTuple):
+    """Pressurised triangles as the kernels see them.
+
+    ``nodes`` (n, 3), ``triangles`` (k, 6); quadratic ``shapes`` (q, 6), their ``gradients``
+    (q, 6, 2) and ``weights`` (q,) at the quadrature points; ``dofs`` (k, 18) and ``entries``
+    (k, 171) are the places in force and CSR values, -1 where an unknown is prescribed.
+    """
+
+    nodes: Reals
+    triangles: Integers
+    shapes: Reals
+    gradients: Reals
+    weights: Reals
+    dofs: Integers
+    entries: Integers
+
+
+@njit(cache=True, error_model="numpy")
+def triangle_response(skin: Skin, x: Reals, tangent: bool, f: Reals, k: Reals) -> None:
+    """Force f (18,) = integral of N_a n da and the upper half of its symmetric tangent k (18, 18).
+
+    ``x`` (6, 3) deformed nodes, mm; per unit pressure, so f is in mm^2 and k in mm.
+    """
+    f[:] = 0.0
+    if tangent:
+        k[:, :] = 0.0
+    x_r = np.empty(3)
+    x_s = np.empty(3)
+    v = np.empty(3)
+    for point in range(skin.weights.size):
+        w = skin.weights[point]
+        for i in range(3):
+            x_r[i] = 0.0
+            x_s[i] = 0.0
+            for a in range(6):
+                x_r[i] += skin.gradients[point, a, 0] * x[a, i]
+                x_s[i] += skin.gradients[point, a, 1] * x[a, i]
+        for a in range(6):
+            for i in range(3):
+                m, n = (i + 1) % 3, (i + 2) % 3
+                f[3 * a + i] += w * skin.shapes[point, a] * (x_r[m] * x_s[n] - x_r[n] * x_s[m])
+        if not tangent:
+            continue
+        for a in range(6):
+            for b in range(a + 1, 6):
+                na, nb = 0.5 * w * skin.shapes[point, a], 0.5 * w * skin.shapes[point, b]
+                along_r = na * skin.gradients[point, b, 1] - nb * skin.gradients[point, a, 1]
+                along_s = na * skin.gradients[point, b, 0] - nb * skin.gradients[point, a, 0]
+                for i in range(3):
+                    v[i] = along_r * x_r[i] - along_s * x_s[i]
+                k[3 * a, 3 * b + 1] -= v[2]
+                k[3 * a, 3 * b + 2] += v[1]
+                k[3 * a + 1, 3 * b] += v[2]
+                k[3 * a + 1, 3 * b + 2] -= v[0]
+                k[3 * a + 2, 3 * b] -= v[1]
+                k[3 * a + 2, 3 * b + 1] += v[0]
+
+
+@njit(cache=True, error_model="numpy")
+def assemble_pressure(
+    skin: Skin, displacement: Reals, pressure: float, tangent: bool, force: Reals, values: Reals
+) -> None:
+    """Add the unit-pressure forces to ``force`` and ``pressure`` times the tangent to ``values``.
+
+    ``displacement`` (n, 3), mm. ``force`` is in mm^2.
+    """
+    f = np.empty(UNKNOWNS)
+    k = np.empty((UNKNOWNS, UNKNOWNS))
+    x = np.empty((6, 3))
+    for triangle in range(skin.triangles.shape[0]):
+        for a in range(6):
+            for i in range(3):
+                node = skin.triangles[triangle, a]
+                x[a, i] = skin.nodes[node, i] + displacement[node, i]
+        triangle_response(skin, x, tangent, f, k)
+        for i in range(UNKNOWNS):
+            if skin.dofs[triangle, i] >= 0:
+                force[skin.dofs[triangle, i]] += f[i]
+        if tangent:
+            entry = 0
+            for i in range(UNKNOWNS):
+                for j in range(i, UNKNOWNS):
+                    if skin.entries[triangle, entry] >= 0:
+                        values[skin.entries[triangle, entry]] += pressure * k[i, j]
+                    entry += 1
+
+
+def enclosed_volume(mesh: Mesh, displacement: Reals, surfaces: tuple[str, ...]) -> float:
+    """Volume inside closed surfaces of the deformed mesh, mm^3.
+
+    -1/3 of the integral of x . n, with the normals out of the solid and so into the cavity. What
+    is missing to a closed surface must lie in planes through the origin, such as the symmetry
+    plane y = 0, where x . n = 0.
+    """
+    rule = triangle_rule()
+    x = (mesh.nodes + displacement)[mesh.triangles(*surfaces)]
+    position = np.einsum("qa,tai->tqi", rule.quadratic, x)
+    tangents = np.einsum("qad,tai->tqdi", rule.gradients, x)
+    normal = np.cross(tangents[:, :, 0], tangents[:, :, 1])
+    return float(-np.einsum("q,tqi,tqi->", rule.weights, position, normal) / 3)

@@ -1,0 +1,138 @@
+"""The sparsity pattern of the tangent, and where every element's entries lie in it.
+
+Computed once per mesh; afterwards the kernels add element matrices straight into CSR values.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numba import njit, prange
+from numpy.typing import NDArray
+
+from solver.arrays import Integers
+from solver.mesh import Mesh
+
+
+@dataclass(frozen=True)
+class Pattern:
+    """Upper triangle (with the whole diagonal) in CSR: ``indptr`` (n + 1,), ``indices`` (nnz,)."""
+
+    indptr: Integers
+    indices: Integers
+
+    def entries(self, dofs: Integers) -> Integers:
+        """Places in the values of each cell's upper triangle, row by row; -1 where prescribed.
+
+        ``dofs`` (e, m) unknowns of each cell -> (e, m (m + 1) / 2).
+        """
+        width = dofs.shape[1]
+        places = np.empty((len(dofs), width * (width + 1) // 2), np.int32)
+        _locate(self.indptr, self.indices, dofs, places)
+        return places
+
+
+def upper_pattern(dofs: Integers, size: int) -> Pattern:
+    """Pattern of a matrix of ``size`` unknowns coupled within cells of unknowns (e, m)."""
+    cell_ptr, cells = incidence(dofs, size)
+    counts = np.zeros(size + 1, np.int64)
+    _count_columns(dofs, cell_ptr, cells, counts)
+    indptr = np.cumsum(counts)
+    if indptr[-1] > np.iinfo(np.int32).max:
+        raise ValueError(f"mesh: {size} unknowns couple in more entries than 32-bit CSR holds.")
+    indices = np.empty(indptr[-1], np.int32)
+    _fill_columns(dofs, cell_ptr, cells, indptr, indices)
+    return Pattern(indptr.astype(np.int32), indices)
+
+
+def incidence(table: Integers, size: int) -> tuple[Integers, Integers]:
+    """Which rows of ``table`` name each number below ``size``, as CSR (pointer, rows)."""
+    flat = table.ravel()
+    rows = np.repeat(np.arange(len(table), dtype=np.int32), table.shape[1])[flat >= 0]
+    flat = flat[flat >= 0]
+    pointer = np.concatenate([[0], np.cumsum(np.bincount(flat, minlength=size))])
+    return pointer.astype(np.int32), rows[np.argsort(flat, kind="stable")]
+
+
+def chunks(mesh: Mesh) -> tuple[Integers, Integers, Integers]:
+    """Elements in chunks, the chunks in colours: chunks of one colour share no node.
+
+    Chunks are slabs across the longest side of the body, so that few colours suffice. Returns the
+    elements chunk by chunk (e,), where each chunk starts (c + 1,), and at which chunk each colour
+    starts (k + 1,).
+    """
+    centres = mesh.nodes[mesh.tets].mean(axis=1)
+    along = centres[:, np.ptp(centres, axis=0).argmax()]
+    count = int(np.clip(len(centres) // ELEMENTS_PER_CHUNK, 1, MOST_CHUNKS))
+    slabs = np.array_split(np.argsort(along, kind="stable").astype(np.int32), count)
+    touched = np.zeros((count, len(mesh.nodes)), np.float32)
+    for slab, nodes in zip(slabs, touched, strict=True):
+        nodes[mesh.tets[slab]] = 1.0
+    colours = _colour(touched @ touched.T > 0)
+    by_colour = np.argsort(colours, kind="stable")
+    lengths = [len(slabs[slab]) for slab in by_colour]
+    return (
+        np.concatenate([slabs[slab] for slab in by_colour]),
+        np.cumsum([0, *lengths], dtype=np.int32),
+        np.cumsum([0, *np.bincount(colours)], dtype=np.int32),
+    )
+
+
+ELEMENTS_PER_CHUNK = 64
+MOST_CHUNKS = 64
+
+
+def _colour(touching: NDArray[np.bool_]) -> list[int]:
+    """Greedy colouring of a graph given by its symmetric adjacency matrix."""
+    colours: list[int] = []
+    for node, neighbours in enumerate(touching):
+        taken = {colours[other] for other in np.flatnonzero(neighbours[:node])}
+        colours.append(next(c for c in range(node + 1) if c not in taken))
+    return colours
+
+
+@njit(cache=True)
+def _count_columns(
+    dofs: Integers, pointer: Integers, rows: Integers, counts: NDArray[np.int64]
+) -> None:
+    seen_by = np.full(len(pointer), -1)
+    for row in range(len(pointer) - 1):
+        for place in range(pointer[row], pointer[row + 1]):
+            for column in dofs[rows[place]]:
+                if column >= row and seen_by[column] != row:
+                    seen_by[column] = row
+                    counts[row + 1] += 1
+
+
+@njit(cache=True)
+def _fill_columns(
+    dofs: Integers, pointer: Integers, rows: Integers, indptr: NDArray[np.int64], indices: Integers
+) -> None:
+    seen_by = np.full(len(pointer), -1)
+    for row in range(len(pointer) - 1):
+        end = indptr[row]
+        for place in range(pointer[row], pointer[row + 1]):
+            for column in dofs[rows[place]]:
+                if column >= row and seen_by[column] != row:
+                    seen_by[column] = row
+                    indices[end] = column
+                    end += 1
+        indices[indptr[row] : end].sort()
+
+
+@njit(cache=True, parallel=True)
+def _locate(indptr: Integers, indices: Integers, dofs: Integers, places: Integers) -> None:
+    for cell in prange(len(dofs)):
+        entry = 0
+        for i in range(dofs.shape[1]):
+            for j in range(i, dofs.shape[1]):
+                row = min(dofs[cell, i], dofs[cell, j])
+                column = max(dofs[cell, i], dofs[cell, j])
+                if row < 0:
+                    places[cell, entry] = -1
+                else:
+                    start, end = indptr[row], indptr[row + 1]
+                    place = start + np.searchsorted(indices[start:end], column)
+                    places[cell, entry] = place
+                entry += 1

@@ -1,0 +1,72 @@
+"""Fixtures that put made-up results in the place of the slow stages."""
+
+from __future__ import annotations
+
+import sys
+import types
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+import pytest
+from fakes import fake_report
+
+from bellows_design.design import Design
+from bellows_design.formats import Part
+from bellows_design.progress import Progress
+from bellows_design.tessellation import tessellate
+from printers import PrintabilityReport
+
+
+@pytest.fixture(scope="session")
+def cube_part() -> Part:
+    """A 10 mm cube under the name of a design."""
+    import cadquery as cq
+
+    solid = cq.Solid.makeBox(10, 10, 10)
+    return Part("cube", "ten by ten <by> ten µm", "ab" * 32, solid, tessellate(solid))
+
+
+@pytest.fixture
+def stub_stages(monkeypatch: pytest.MonkeyPatch, cube_part: Part) -> Callable[..., None]:
+    """Call it with an evaluation (and a report) that every design shall get."""
+    from bellows_design import pipeline
+
+    stub = types.ModuleType("bellows_design.evaluation")
+    monkeypatch.setitem(sys.modules, "bellows_design.evaluation", stub)
+
+    def build(design: Design) -> Part:
+        return replace(
+            cube_part, name=design.name, description=design.description, digest=design.digest
+        )
+
+    def install(evaluation: Any, report: PrintabilityReport | None = None) -> None:
+        def evaluate(design: Design, *, model: str = "auto", progress: Progress) -> Any:
+            progress.stage("solve")
+            if isinstance(evaluation, BaseException):
+                raise evaluation
+            return evaluation
+
+        stub.evaluate = evaluate  # type: ignore[attr-defined]
+        monkeypatch.setattr(pipeline, "build_part", build)
+        monkeypatch.setattr(pipeline, "check", lambda *_: report or fake_report())
+
+    return install
+
+
+@pytest.fixture
+def bellows(capfd: pytest.CaptureFixture[str]) -> Callable[..., tuple[int, str, str]]:
+    """Run the command in this process: (exit status, stdout, stderr)."""
+    from bellows_design.cli import app
+
+    def call(*arguments: str) -> tuple[int, str, str]:
+        status: int | str | None = 0
+        try:
+            app(list(arguments))
+        except SystemExit as exit_:
+            status = exit_.code
+        captured = capfd.readouterr()
+        assert isinstance(status, int | None)
+        return status or 0, captured.out, captured.err
+
+    return call

@@ -1,0 +1,96 @@
+"""What speaks against a design, and that silence never speaks for it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import pytest
+from fakes import FakeEstimate, FakeEvaluation, fake_report
+
+from bellows_design.approval import REQUIRED_RULES, decide
+from bellows_design.design import load_design
+from bellows_design.overrides import with_overrides
+from printers import PrintabilityReport, RuleResult
+
+DESIGN = load_design("prototype_1")
+GOOD = FakeEvaluation(max_von_mises_mpa=3.9, error_estimate=FakeEstimate(2.0))
+WALL = RuleResult(
+    "minimum_lines", "fail", 3.75, 3, "lines", "bubble_thickness", "1.5 mm is no wall."
+)
+
+
+def test_a_design_that_keeps_every_rule_is_approved() -> None:
+    verdict = decide(DESIGN, fake_report(), GOOD)
+    assert verdict.approved and verdict.reasons == ()
+
+
+def test_a_failed_printing_rule_refuses_and_a_warning_does_not() -> None:
+    verdict = decide(DESIGN, fake_report(WALL), GOOD)
+    assert not verdict.approved and not verdict.undecided
+    assert [(r.rule, r.measured, r.required, r.unit) for r in verdict.reasons] == [
+        ("minimum_lines", 3.75, 3, "lines")
+    ]
+    assert decide(DESIGN, fake_report(replace(WALL, verdict="warn")), GOOD).approved
+
+
+def test_a_rule_that_was_not_checked_is_not_a_pass() -> None:
+    verdict = decide(DESIGN, PrintabilityReport("prusa_i3", ()), GOOD)
+    assert {reason.rule for reason in verdict.reasons} == set(REQUIRED_RULES)
+
+
+@pytest.mark.parametrize(
+    ("stress", "percent", "kinds"),
+    [
+        (3.9, 2.0, []),  # 3.978
+        (3.9, 2.7, ["accuracy"]),  # 4.005
+        (4.0, 0.0, []),
+        (4.1, 2.0, ["stress"]),  # 4.018 at least
+        (4.1, 3.0, ["accuracy"]),  # 3.977 at least
+        (4.1, -2.0, ["stress"]),
+        (3.0, None, ["accuracy"]),
+        (3.0, math.nan, ["accuracy"]),
+        (math.nan, 1.0, ["accuracy"]),
+    ],
+)
+def test_the_estimated_error_must_not_reach_across_the_stress_limit(
+    stress: float, percent: float | None, kinds: list[str]
+) -> None:
+    found = replace(GOOD, max_von_mises_mpa=stress, error_estimate=FakeEstimate(percent))
+    verdict = decide(DESIGN, fake_report(), found)
+    assert [reason.kind for reason in verdict.reasons] == kinds
+    assert verdict.undecided is (kinds == ["accuracy"])
+
+
+def test_a_refusal_for_stress_says_by_how_much() -> None:
+    verdict = decide(DESIGN, fake_report(), replace(GOOD, max_von_mises_mpa=4.547))
+    (reason,) = verdict.reasons
+    assert (reason.measured, reason.required) == (4.547, 4.0)
+    assert "0.547 MPa above the limit of 4 MPa" in reason.message
+
+
+def test_the_designs_own_limit_goes_before_the_yield_strength() -> None:
+    strict = with_overrides(DESIGN, ["limits.max_von_mises=3.5"])
+    assert not decide(strict, fake_report(), GOOD).approved
+
+
+@pytest.mark.parametrize(
+    "found",
+    [
+        replace(GOOD, converged=False, pressure_mpa=0.06, message="cut back eight times."),
+        replace(GOOD, converged=True, pressure_mpa=0.06),
+        replace(GOOD, converged=True, pressure_mpa=math.nan),
+    ],
+)
+def test_a_load_that_was_not_reached_refuses(found: FakeEvaluation) -> None:
+    verdict = decide(DESIGN, fake_report(), found)
+    assert [reason.kind for reason in verdict.reasons] == ["convergence"]
+    assert "of 0.1 MPa" in verdict.reasons[0].message
+    assert found.message in verdict.reasons[0].message
+
+
+def test_all_reasons_are_named_together() -> None:
+    verdict = decide(DESIGN, fake_report(WALL), replace(GOOD, max_von_mises_mpa=5.0))
+    assert [reason.kind for reason in verdict.reasons] == ["printability", "stress"]
+    assert not verdict.undecided
+    assert len(verdict.to_dict()["reasons"]) == 2
