@@ -266,11 +266,12 @@ class Indent(Parameters):
                 f"indent.depth = {self.depth:g} mm exceeds half of indent.width = "
                 f"{self.width:g} mm, the deepest arc",
             )
-        most = min(self.depth, self.width / 2)
+        inside = self.side == "inside"
+        most = self.width / 2 if inside else min(self.depth, self.width / 2)
         _require(
             self.fillet <= most + 1e-9,
-            f"indent.fillet = {self.fillet:g} mm exceeds {most:.3g} mm, the lesser of depth and "
-            "half of width",
+            f"indent.fillet = {self.fillet:g} mm exceeds {most:.3g} mm, "
+            + ("half of its width" if inside else "the lesser of its depth and half of its width"),
         )
         return self
 

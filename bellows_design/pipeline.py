@@ -72,10 +72,11 @@ def check_dict(design: Design, report: PrintabilityReport) -> dict[str, Any]:
 def run(design: Design, output_root: Path, progress: Progress = SILENCE) -> Outcome:
     """Take ``design`` all the way; its files appear below ``output_root`` only if it is approved.
 
-    Every rule is applied even after one has failed, so that a refusal names all reasons.
+    Every rule is applied even after one has failed, so that a refusal names all reasons. Where
+    only the estimated error keeps the verdict open, the mesh is refined and decided upon again.
     """
     from bellows_design.approval import decide
-    from bellows_design.evaluation import evaluate
+    from bellows_design.evaluation import evaluate, refined
     from bellows_design.export import require_place
 
     require_place(design.name, output_root)
@@ -84,6 +85,8 @@ def run(design: Design, output_root: Path, progress: Progress = SILENCE) -> Outc
     progress.stage("check")
     report = check(design, part)
     evaluation = evaluate(design, progress=progress)
+    while decide(design, report, evaluation).undecided and evaluation.can_refine:
+        evaluation = refined(evaluation, progress)
     verdict = decide(design, report, evaluation)
     folder, withdrawn = _settle(part, design, report, evaluation, verdict, output_root)
     return Outcome(design, report, evaluation, verdict, folder, withdrawn)

@@ -22,10 +22,10 @@ from solver.stress import deviatoric_at_nodes, von_mises
 class SolverOptions:
     """How the load is walked.
 
-    Steps are fractions of the asked pressure. A step counts as converged when the last Newton
-    correction moved no node by more than ``tolerance`` (at the asked pressure) or
-    ``loose_tolerance`` (before), both in units of the body's diagonal; what is left after that
-    correction is far smaller.
+    Steps are fractions of the asked pressure. A load counts as reached when the last Newton
+    correction moved no node by more than ``tolerance``, in units of the body's diagonal; what is
+    left after that correction is far smaller. Below the asked pressure ``loose_tolerance`` will
+    do, if the correction was smaller than the one before.
     """
 
     first_step: float = 0.1
@@ -75,6 +75,9 @@ class Event:
 
 
 Listener = Callable[[Event], None]
+
+DIVERGED = 10.0
+"""A correction of so many body diagonals is no correction."""
 
 
 def solve(
@@ -151,10 +154,10 @@ class Newton:
     def correct(self, guess: State, load: float, tolerance: float) -> Attempt:
         """Newton iterations at a fixed load from ``guess``, until a correction is small.
 
-        The factorization left behind is the last iteration's.
+        The first correction after a predictor may be small by chance, with large ones to follow:
+        a ``tolerance`` looser than the options' counts only while corrections shrink. The factorization left behind is the last iteration's.
         """
-        state, correction = guess, np.inf
-        limit = 10 * self.problem.mesh.size
+        state, previous, size = guess, 0.0, self.problem.mesh.size
         for iteration in range(1, self.options.maximum_iterations + 1):
             equilibrium = self.assembly.evaluate(state, load * self.pressure)
             if not equilibrium.admissible:
@@ -165,13 +168,15 @@ class Newton:
                 return Attempt(guess, iteration, f"the tangent is singular ({error})")
             increment = self.solve(-equilibrium.residual)
             correction = float(np.abs(increment.displacement).max())
-            if not correction < limit:
+            if not correction < DIVERGED * size:
                 return Attempt(guess, iteration, "the Newton corrections grew without bound")
             state = self.advance(state, increment)
             self.effort.iterations += 1
             self.notify("iteration", load, state, iteration, correction)
-            if correction <= tolerance * self.problem.mesh.size:
+            contracting = correction < previous
+            if correction <= (tolerance if contracting else self.options.tolerance) * size:
                 return self.verified(state, load, iteration, guess)
+            previous = correction
         return Attempt(guess, iteration, f"Newton did not converge in {iteration} iterations")
 
     def verified(self, state: State, load: float, iterations: int, guess: State) -> Attempt:

@@ -1,0 +1,45 @@
+"""Do bubbles touch under pressure? Contact is reported here; it is not modelled."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from bellows_design.geometry import OUTSIDE
+from bellows_design.parameters import BellowsParameters
+from solver import Solution
+from solver.proximity import facing_gaps
+
+
+@dataclass(frozen=True)
+class Contact:
+    """How near walls come to each other outside.
+
+    ``detected``: neighbouring bubbles touch or run into each other. ``min_gap_mm``: narrowest air
+    between them, None if they face nothing. ``overlaps_itself``: distant parts of the actuator
+    run through each other, as they do past a full turn.
+    """
+
+    detected: bool
+    min_gap_mm: float | None
+    overlaps_itself: bool
+
+
+def contact_of(bellows: BellowsParameters, solution: Solution) -> Contact:
+    """Contact in a deformed actuator, full or half."""
+    gaps = facing_gaps(solution.problem.mesh, solution.displacement, OUTSIDE)
+    apart = np.abs(_bubble(bellows, gaps.starts) - _bubble(bellows, gaps.ends))
+    near = gaps.distances[apart <= 1]
+    narrowest = float(near.min()) if near.size else None
+    return Contact(
+        detected=narrowest is not None and narrowest <= 0,
+        min_gap_mm=narrowest,
+        overlaps_itself=bool((gaps.distances[apart > 1] < 0).any()),
+    )
+
+
+def _bubble(bellows: BellowsParameters, places: np.ndarray) -> np.ndarray:
+    """Number of the bubble each place (k, 3) is nearest to along x, (k,)."""
+    nearest = np.rint((places[:, 0] - bellows.bubble_middles[0]) / bellows.pitch)
+    return np.clip(nearest, 0, bellows.bubble_count - 1)
