@@ -12,8 +12,6 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from bellows_design.atomic import replacing
 from bellows_design.errors import DesignError, quoted
 from bellows_design.tessellation import ClosedMesh
@@ -62,14 +60,11 @@ def writer_for(path: Path) -> Writer:
 
 def _write_stl(part: Part, path: Path) -> None:
     """Binary STL; its 80-byte header names the design."""
-    corners = part.mesh.vertices[part.mesh.triangles].astype("<f4")
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), np.finfo("<f4").tiny)
-    facet = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
-    facets = np.zeros(len(corners), dtype=facet)
-    facets["normal"], facets["corners"] = normals, corners
+    import trimesh
+
+    mesh = trimesh.Trimesh(part.mesh.vertices, part.mesh.triangles, process=False)
     header = f"bellows-design {part.name} {part.digest[:16]} mm".encode("ascii")[:80].ljust(80)
-    path.write_bytes(header + np.uint32(len(facets)).astype("<u4").tobytes() + facets.tobytes())
+    path.write_bytes(header + mesh.export(file_type="stl")[80:])
 
 
 def _write_3mf(part: Part, path: Path) -> None:

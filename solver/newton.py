@@ -76,8 +76,8 @@ class Event:
 
 Listener = Callable[[Event], None]
 
-DIVERGED = 10.0
-"""A correction of so many body diagonals is no correction."""
+DIVERGED = 1.0
+"""A correction of so many body diagonals corrects nothing."""
 
 
 def solve(
@@ -155,7 +155,8 @@ class Newton:
         """Newton iterations at a fixed load from ``guess``, until a correction is small.
 
         The first correction after a predictor may be small by chance, with large ones to follow:
-        a ``tolerance`` looser than the options' counts only while corrections shrink. The factorization left behind is the last iteration's.
+        a ``tolerance`` looser than the options' counts only while corrections shrink. The
+        factorization left behind is the last iteration's.
         """
         state, previous, size = guess, 0.0, self.problem.mesh.size
         for iteration in range(1, self.options.maximum_iterations + 1):
