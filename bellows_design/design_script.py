@@ -52,16 +52,14 @@ design = Design(
 )
 part = cq.Workplane().invoke(bellows(design))
 
-if __name__ == "__main__" and "show_object" not in globals():
+if "show_object" in globals():
+    show_object(part)  # type: ignore[name-defined]  # noqa: F821
+elif __name__ == "__main__":
     import sys
 
-    from bellows_design.formats import Part, write_part
-    from bellows_design.tessellation import tessellate
+    from bellows_design.formats import write_part
+    from bellows_design.pipeline import build_part
 
     if len(sys.argv) != 2:
         sys.exit("usage: python -m bellows_design.design_script part.stl")
-    solid = part.val()
-    write_part(Part(design.name, "", design.digest, solid, tessellate(solid)), sys.argv[1])
-
-if "show_object" in globals():
-    show_object(part)  # noqa: F821
+    write_part(build_part(design), sys.argv[1])

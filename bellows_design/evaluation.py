@@ -98,13 +98,18 @@ class Evaluation:
 
     @property
     def error_estimate(self) -> ErrorEstimate:
-        """Difference between the last two meshes, in percent of the finest."""
+        """Difference between the last two meshes, in percent of the finest.
+
+        Two peaks can agree by chance; so the stress is taken no better than half of how much the
+        elements around its place disagree.
+        """
         if len(self.solutions) < 2 or not self.converged:
             return ErrorEstimate()
-        coarse, fine = self.solutions[-2:]
+        (coarse, fine), (before, peak) = self.solutions[-2:], self.peaks[-2:]
+        stress_error = max(abs(before.value - peak.value), peak.scatter / 2)
         return ErrorEstimate(
-            _difference_percent(coarse.rotation, fine.rotation),
-            _difference_percent(self.peaks[-2].value, self.peaks[-1].value),
+            _percent(coarse.rotation - fine.rotation, fine.rotation),
+            _percent(stress_error, peak.value),
         )
 
     @cached_property
@@ -232,8 +237,8 @@ def _enough(evaluation: Evaluation, accuracy_percent: float | None) -> bool:
     return all(error is not None and error <= accuracy_percent for error in estimates)
 
 
-def _difference_percent(coarse: float, fine: float) -> float | None:
-    return 100 * abs(coarse - fine) / abs(fine) if fine else None
+def _percent(error: float, value: float) -> float | None:
+    return 100 * abs(error / value) if value else None
 
 
 def _size(solution: Solution) -> dict[str, int]:

@@ -61,10 +61,11 @@ def writer_for(path: Path) -> Writer:
 def _write_stl(part: Part, path: Path) -> None:
     """Binary STL; its 80-byte header names the design."""
     import trimesh
+    from trimesh.exchange.stl import export_stl
 
     mesh = trimesh.Trimesh(part.mesh.vertices, part.mesh.triangles, process=False)
     header = f"bellows-design {part.name} {part.digest[:16]} mm".encode("ascii")[:80].ljust(80)
-    path.write_bytes(header + mesh.export(file_type="stl")[80:])
+    path.write_bytes(header + export_stl(mesh)[80:])
 
 
 def _write_3mf(part: Part, path: Path) -> None:

@@ -24,6 +24,8 @@ import cadquery as cq
 from bellows_design.design import Design
 from bellows_design.geometry import printed_part
 
+METHOD = "bellows"
+
 
 def bellows(design: Design) -> Callable[[cq.Workplane], cq.Workplane]:
     """What ``Workplane.invoke`` takes to put the printed part of ``design`` on every point.
@@ -38,7 +40,7 @@ def bellows(design: Design) -> Callable[[cq.Workplane], cq.Workplane]:
     solid = printed_part(design.bellows, design.indent, design.port).solid
 
     def placed(workplane: cq.Workplane) -> cq.Workplane:
-        return workplane.eachpoint(solid, useLocalCoordinates=True)
+        return workplane.eachpoint(solid, useLocalCoordinates=True, clean=False)
 
     return placed
 
@@ -46,17 +48,13 @@ def bellows(design: Design) -> Callable[[cq.Workplane], cq.Workplane]:
 def register() -> None:
     """Add the method ``Workplane.bellows(design)`` to CadQuery for this process.
 
-    Raises ``ValueError``, and changes nothing, if another plugin has taken the name.
+    Raises ``ValueError``, and changes nothing, if the name is already taken by another.
     """
-    taken = getattr(cq.Workplane, _method.__name__, _method)
-    if taken is not _method:
-        raise ValueError("cadquery.Workplane has a bellows of another plugin; it stays as it is")
-    setattr(cq.Workplane, _method.__name__, _method)
+    if getattr(cq.Workplane, METHOD, _method) is not _method:
+        raise ValueError(f"cadquery.Workplane.{METHOD} is there already and stays as it is")
+    setattr(cq.Workplane, METHOD, _method)
 
 
 def _method(self: cq.Workplane, design: Design) -> cq.Workplane:
     """The printed part of ``design`` on every point; see ``bellows_design.plugin.bellows``."""
     return self.invoke(bellows(design))
-
-
-_method.__name__ = "bellows"

@@ -1,6 +1,7 @@
 """Which Debian package to install when a wheel misses a library of the system.
 
-Gmsh's wheel links to the X and OpenGL libraries of a desktop even where nothing is displayed.
+Gmsh's wheel links to the X and OpenGL libraries of a desktop even where nothing is displayed;
+CadQuery's needs libGL, libX11 and libexpat of them. All other wheels bring what they need.
 """
 
 from __future__ import annotations
@@ -20,10 +21,6 @@ PACKAGES: Mapping[str, str] = MappingProxyType(
         "libXft.so.2": "libxft2",
         "libXinerama.so.1": "libxinerama1",
         "libXrender.so.1": "libxrender1",
-        "libOpenGL.so.0": "libopengl0",
-        "libEGL.so.1": "libegl1",
-        "libSM.so.6": "libsm6",
-        "libICE.so.6": "libice6",
         "libexpat.so.1": "libexpat1",
         "libfontconfig.so.1": "libfontconfig1",
         "libgomp.so.1": "libgomp1",
@@ -31,10 +28,8 @@ PACKAGES: Mapping[str, str] = MappingProxyType(
 )
 """Library -> the Debian (and Ubuntu) package that holds it."""
 
-INSTALL = (
-    "apt-get install -y libgl1 libglu1-mesa libgomp1 libxcursor1 libxft2 libxinerama1 libxrender1"
-)
-"""Brings all of them on a bare Debian; the rest comes as their dependencies."""
+INSTALL = "apt-get install -y libgl1 libglu1-mesa libgomp1 libxcursor1 libxft2 libxinerama1"
+"""Brings all of them on a bare Debian; the rest of the packages are dependencies of these."""
 
 _MISSING = re.compile(r"(lib[\w.+-]+\.so[\w.]*): cannot open shared object file")
 
@@ -51,5 +46,5 @@ def missing_library(error: BaseException) -> str | None:
         return f"the system library {library} is missing; install the package that holds it."
     return (
         f"the system library {library} is missing: on Debian or Ubuntu install the package "
-        f"{PACKAGES[library]} (all that may be needed: {INSTALL})."
+        f"{PACKAGES[library]} (all that may be needed, as root or with sudo: {INSTALL})."
     )
