@@ -153,6 +153,10 @@ def evaluate(
         Model.auto
     ),
     pressure: Pressure = None,
+    accuracy: Annotated[
+        float | None,
+        typer.Option(metavar="PERCENT", help="Refine until the estimated errors are this small."),
+    ] = None,
     vtu: Annotated[
         Path | None, typer.Option(help="Also write the deformed mesh, for ParaView (.vtu).")
     ] = None,
@@ -172,7 +176,7 @@ def evaluate(
         from bellows_design import evaluation  # heavy: not before the input is known to be good
 
         with on_stderr() as progress:
-            result = evaluation.evaluate(chosen, model=model.value, progress=progress)
+            result = evaluation.evaluate(chosen, model.value, accuracy, progress=progress)
             if vtu is not None:
                 evaluation.write_vtu(result, vtu)
         content = result.to_dict()

@@ -120,9 +120,9 @@ class BellowsParameters(Parameters):
 
     @property
     def channel_fillet(self) -> float:
-        """Radius built on the channel's edges, mm: the inner fillet as far as it fits."""
+        """Radius built on the channel's edges, mm: the chamber's as far as it fits."""
         half = min(self.channel_width, self.channel_height) / 2
-        return snapped_radius(min(self.inner_fillet, half), half)
+        return snapped_radius(min(self.chamber_fillet, half), half)
 
     @property
     def bubble_fillet(self) -> float:

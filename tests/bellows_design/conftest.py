@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import sys
-import types
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
@@ -32,22 +30,25 @@ def stub_stages(monkeypatch: pytest.MonkeyPatch, cube_part: Part) -> Callable[..
     """Call it with an evaluation (and a report) that every design shall get."""
     from bellows_design import pipeline
 
-    stub = types.ModuleType("bellows_design.evaluation")
-    monkeypatch.setitem(sys.modules, "bellows_design.evaluation", stub)
-
     def build(design: Design) -> Part:
         return replace(
             cube_part, name=design.name, description=design.description, digest=design.digest
         )
 
     def install(evaluation: Any, report: PrintabilityReport | None = None) -> None:
-        def evaluate(design: Design, *, model: str = "auto", progress: Progress) -> Any:
+        def evaluate(
+            design: Design,
+            model: str = "auto",
+            accuracy: float | None = None,
+            *,
+            progress: Progress,
+        ) -> Any:
             progress.stage("solve")
             if isinstance(evaluation, BaseException):
                 raise evaluation
             return evaluation
 
-        stub.evaluate = evaluate  # type: ignore[attr-defined]
+        monkeypatch.setattr("bellows_design.evaluation.evaluate", evaluate)
         monkeypatch.setattr(pipeline, "build_part", build)
         monkeypatch.setattr(pipeline, "check", lambda *_: report or fake_report())
 

@@ -18,6 +18,7 @@ class FakeEvaluation:
     """An evaluation with made-up numbers."""
 
     converged: bool = True
+    can_refine: bool = False
     message: str = ""
     pressure_mpa: float = 0.1
     bending_angle_deg: float = 400.0

@@ -9,10 +9,11 @@ import subprocess
 import sys
 import tomllib
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from fakes import FakeEvaluation, fake_report
+from fakes import FakeEstimate, FakeEvaluation, fake_report
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
@@ -61,6 +62,7 @@ def test_list_names_every_shipped_design(bellows: Bellows) -> None:
         (["evaluate", "prototype_1", "--set", "bubble_width=nan"], "finite number"),
         (["evaluate", "prototype_1", "--pressure", "100"], "100 kPa would be 0.1 MPa"),
         (["evaluate", "prototype_1", "--pressure", "nan"], "finite number"),
+        (["evaluate", "prototype_1", "--accuracy", "0"], "must lie between 0.01 and 100 %"),
         (["run", "prototype_1", "--set", "name=../x"], "name is “../x”"),
         (["design", "prototype_1", "-o", "part.obj"], "must end in .stl"),
         (["design", "prototype_1", "-o", "no/where/part.stl"], "there is no folder"),
@@ -297,3 +299,16 @@ def test_no_input_leads_to_a_traceback_or_a_file_elsewhere(
     assert [path.name for path in base.iterdir()] == ["output"]
     for folder in output.iterdir():
         assert (folder / "manifest.json").exists()
+
+
+def test_an_open_verdict_refines_the_mesh_and_decides_again(
+    bellows: Bellows,
+    stub_stages: Callable[..., None],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    finer = FakeEvaluation(max_von_mises_mpa=3.8, error_estimate=FakeEstimate(1.0))
+    monkeypatch.setattr("bellows_design.evaluation.refined", lambda *_: finer)
+    stub_stages(replace(finer, can_refine=True, error_estimate=FakeEstimate(20.0)))
+    status, out, _ = bellows("run", "prototype_2", "--output", str(tmp_path), "--json")
+    assert status == 0 and json.loads(out)["approved"]

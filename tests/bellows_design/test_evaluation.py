@@ -56,7 +56,7 @@ def test_a_finer_mesh_agrees_within_the_estimated_error(evaluation: Evaluation) 
         ),
     ):
         assert percent is not None
-        assert abs(value - other) <= 2 * percent / 100 * value
+        assert abs(value - other) <= percent / 100 * value
 
 
 def test_grid_sequencing_saves_the_load_path_on_the_finer_mesh(evaluation: Evaluation) -> None:
@@ -140,7 +140,7 @@ def test_accuracy_refines_until_the_estimate_keeps_it(monkeypatch: pytest.Monkey
     monkeypatch.setattr("bellows_design.analysis.LADDER", coarse_ladder)
     single = short("number_of_bubbles=1", "length=11.5")
     rough = evaluate(single, accuracy_percent=100)
-    fine = evaluate(single, accuracy_percent=0.01)
+    fine = evaluate(single, accuracy_percent=0.01)  # below what is ever claimed
     assert len(rough.solutions) == 2
     assert len(fine.solutions) == 3
     assert not fine.can_refine

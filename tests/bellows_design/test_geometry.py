@@ -11,7 +11,7 @@ from typing import Any
 import cadquery as cq
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 from pydantic import ValidationError
@@ -294,17 +294,24 @@ def test_the_printed_part_is_the_analysed_body_with_a_port(name: str) -> None:
     assert set(printed(name).face_names) == {"cavity", "outside", "root", "tip", "port"}
 
 
-@pytest.mark.parametrize("chamber", [1.1, 1.4, 2.3])
+@pytest.mark.parametrize("chamber", [1.1, 1.4, 1.7])
 def test_full_rounds_of_any_length_have_the_same_few_faces(chamber: float) -> None:
     """Half of 1.1 has no exact binary form; a strip of 1e-16 mm must not become a face."""
-    changes = {"chamber_length": chamber, "inner_fillet": chamber / 2, "number_of_bubbles": 2}
-    full = changed(PROTOTYPE_1, length=25, outer_fillet=(chamber + 3) / 2, **changes)
-    nearly = changed(full, inner_fillet=chamber / 2 - 0.03, outer_fillet=chamber / 2 + 1.52)
-    solid, snapped = half_body(full, None).solid, half_body(nearly, None).solid
-    reference = half_body(changed(full, chamber_length=2, inner_fillet=1, outer_fillet=2.5), None)
-    assert len(solid.Faces()) == len(snapped.Faces()) == len(reference.solid.Faces())
-    assert snapped.Volume() == pytest.approx(solid.Volume(), rel=1e-9)
-    assert min(edge.Length() for edge in solid.Edges()) > 0.1
+
+    def rounded(length: float, short_of_full: float) -> cq.Solid:
+        bellows = changed(
+            PROTOTYPE_1,
+            length=25,
+            number_of_bubbles=2,
+            chamber_length=length,
+            inner_fillet=length / 2 - short_of_full,
+            outer_fillet=length / 2 + 1.5 - short_of_full,
+        )
+        return half_body(bellows, None).solid
+
+    exact, snapped, reference = rounded(chamber, 0), rounded(chamber, 0.03), rounded(1.5, 0)
+    assert len(exact.Faces()) == len(snapped.Faces()) == len(reference.Faces())
+    assert min(edge.Length() for edge in (*exact.Edges(), *snapped.Edges())) > 0.1
 
 
 def _assert_one_opening(part: NamedSolid, design: Design) -> None:
@@ -398,38 +405,44 @@ def rounded_floats(lowest: float, highest: float) -> st.SearchStrategy[float]:
 def numbers(draw: st.DrawFn) -> dict[str, float]:
     """Twelve numbers of a short bellows, mostly admissible, often at the edge of it."""
     wall, tendon_wall = draw(rounded_floats(0.4, 2.5)), draw(rounded_floats(0.4, 2.5))
-    chamber = draw(rounded_floats(0.4, 6))
-    width = draw(rounded_floats(max(4, 2 * wall + 0.4), 25))
-    height = draw(rounded_floats(max(4, 2 * wall + 0.4, wall + 2 * tendon_wall + 0.8), 25))
-    narrowest = max(2, 2 * tendon_wall + 0.4)
-    inner = draw(st.sampled_from([0.0, chamber / 2]) | rounded_floats(0, chamber / 2))
+    chamber, distance = draw(rounded_floats(0.4, 6)), draw(rounded_floats(0.4, 4))
+    offset, pitch = draw(rounded_floats(tendon_wall, 7)), chamber + 2 * wall + distance
+    thicker = max(0, wall - tendon_wall)
+    narrowest = max(2, 2 * tendon_wall + 0.5) + thicker
+    width = draw(rounded_floats(max(4, narrowest + 2 * thicker), 25))
+    height = draw(rounded_floats(max(4, narrowest + wall), 25))
+    widest = width - 2 * thicker
+    inner = draw(st.sampled_from([0.0, chamber / 2]) | rounded_floats(0.05, chamber / 2))
+    inner = min(inner, width / 2 - wall, height / 2 - wall)
     outer = st.sampled_from([0.0, chamber / 2 + wall, inner + wall])
     return {
         "bubble_width": width,
         "bubble_height": height,
         "bubble_thickness": wall,
-        "tendon_width": draw(st.just(width) | rounded_floats(narrowest, width)),
-        "tendon_height": draw(rounded_floats(narrowest + max(0, wall - tendon_wall), height)),
+        "tendon_width": draw(st.just(widest) | rounded_floats(narrowest, widest)),
+        "tendon_height": draw(rounded_floats(narrowest, height - wall)),
         "tendon_thickness": tendon_wall,
         "chamber_length": chamber,
-        "bubble_distance": draw(rounded_floats(0.4, 4)),
-        "inner_fillet": min(inner, width / 2 - wall, height / 2 - wall),
-        "outer_fillet": draw(outer | rounded_floats(0, chamber / 2 + wall)),
-        "length": draw(rounded_floats(15, 30)),
-        "offset": draw(rounded_floats(tendon_wall, 7)),
+        "bubble_distance": distance,
+        "inner_fillet": inner,
+        "outer_fillet": draw(outer | rounded_floats(0.05, chamber / 2 + wall)),
+        "length": draw(rounded_floats(max(10, offset + pitch), offset + 3 * pitch)),
+        "offset": offset,
     }
 
 
 @st.composite
 def indents(draw: st.DrawFn, bellows: dict[str, float]) -> dict[str, Any] | None:
+    thinner = min(bellows["bubble_thickness"], bellows["tendon_thickness"])
     side = draw(st.sampled_from([None, "outside", "inside"]))
-    if side is None:
+    if side is None or thinner < 0.5:
         return None
-    wall, chamber = bellows["bubble_thickness"], bellows["chamber_length"]
+    chamber = bellows["chamber_length"]
     shape = draw(st.sampled_from(["arc", "rectangular"])) if side == "outside" else "rectangular"
-    widest = chamber if side == "inside" else chamber + 2 * wall
+    widest = chamber if side == "inside" else chamber + 2 * bellows["bubble_thickness"]
     width = draw(st.just(widest) | rounded_floats(0.2, widest))
-    depth = draw(rounded_floats(0.05, max(0.1, wall - 0.4)))
+    deepest = thinner - 0.4 if shape == "rectangular" else min(thinner - 0.4, width / 2)
+    depth = draw(rounded_floats(0.05, deepest))
     most = width / 2 if side == "inside" else min(depth, width / 2)
     fillet = 0.0 if shape == "arc" else draw(st.sampled_from([0.0, most]))
     return {"side": side, "shape": shape, "depth": depth, "width": width, "fillet": fillet}
@@ -473,6 +486,7 @@ def count_built(examples: int) -> int:
         deadline=None,
         derandomize=True,
         database=None,
+        phases=[Phase.generate],  # shrinking builds hundreds of solids
         suppress_health_check=list(HealthCheck),
     )
     @given(parts())

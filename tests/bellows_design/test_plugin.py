@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import subprocess
+import runpy
 import sys
 from collections.abc import Iterator
 from functools import cache
@@ -12,11 +12,12 @@ import cadquery as cq
 import pytest
 from cadquery import cqgi
 
-from bellows_design import design_script, plugin
+from bellows_design import plugin
 from bellows_design.design import Design, load_design
 from bellows_design.geometry import printed_part
 from bellows_design.parameters import BellowsParameters, Indent, Port
 
+SCRIPT = Path(plugin.__file__).with_name("design_script.py")
 BELLOWS = BellowsParameters.model_validate(
     {**load_design("prototype_1").bellows.model_dump(), "length": 18, "number_of_bubbles": 1}
 )
@@ -86,7 +87,7 @@ def test_registering_never_overrides_an_existing_name(monkeypatch: pytest.Monkey
 
 def test_cadquery_hosts_find_every_number_of_the_script_and_show_the_part() -> None:
     """What CQ-editor and cq-cli do: they run the script through CadQuery's gateway."""
-    model = cqgi.parse(Path(design_script.__file__).read_text("utf-8"))
+    model = cqgi.parse(SCRIPT.read_text("utf-8"))
     parameters = model.metadata.parameters
     assert set(BellowsParameters.model_fields) - {"number_of_bubbles"} <= set(parameters)
     result = model.build({"length": 18.0, "bubble_width": 16, "indent_depth": 0.0})
@@ -98,25 +99,25 @@ def test_cadquery_hosts_find_every_number_of_the_script_and_show_the_part() -> N
 
 
 def test_numbers_that_make_no_bellows_reach_the_host_as_one_sentence() -> None:
-    result = cqgi.parse(Path(design_script.__file__).read_text("utf-8")).build({"tendon_width": 30})
+    result = cqgi.parse(SCRIPT.read_text("utf-8")).build({"tendon_width": 30})
     assert not result.success
     assert "tendon_width = 30 mm must not exceed bubble_width = 20 mm" in str(result.exception)
 
 
-def test_on_its_own_the_script_writes_the_checked_mesh(tmp_path: Path) -> None:
+def test_on_its_own_the_script_writes_the_checked_mesh(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     import trimesh
 
-    command = [sys.executable, "-m", "bellows_design.design_script"]
     target = tmp_path / "part.stl"
-    done = subprocess.run([*command, str(target)], capture_output=True, text=True, timeout=120)
-    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
-    mesh = trimesh.load(target, file_type="stl")
+    monkeypatch.setattr(sys, "argv", [str(SCRIPT), str(target)])
+    part = runpy.run_path(str(SCRIPT), run_name="__main__")["part"]
+    mesh = trimesh.load(target)
     assert mesh.is_watertight
-    assert mesh.volume == pytest.approx(design_script.part.val().Volume(), rel=0.005)
+    assert mesh.volume == pytest.approx(part.val().Volume(), rel=0.005)
 
 
-def test_without_a_file_the_script_says_how_it_is_used() -> None:
-    command = [sys.executable, "-m", "bellows_design.design_script"]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=120)
-    assert done.returncode == 1
-    assert done.stderr.startswith("usage: ")
+def test_without_a_file_the_script_says_how_it_is_used(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "argv", [str(SCRIPT)])
+    with pytest.raises(SystemExit, match="usage: "):
+        runpy.run_path(str(SCRIPT), run_name="__main__")

@@ -1,0 +1,95 @@
+"""Contact is found where bubbles are pushed together, and nowhere else."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from bellows_design.analysis import LADDER, half_problem, half_solid, mesh_of
+from bellows_design.contact import contact_of
+from bellows_design.design import Design, load_design
+from bellows_design.parameters import BellowsParameters
+from solver import Problem, Solution
+
+Array = NDArray[np.float64]
+BELLOWS = BellowsParameters.model_validate(
+    {**load_design("prototype_1").bellows.model_dump(), "length": 26, "number_of_bubbles": 3}
+)
+GAP = BELLOWS.bubble_distance
+
+
+@pytest.fixture(scope="module")
+def problem() -> Problem:
+    design = Design(name="short", bellows=BELLOWS)
+    return half_problem(design, mesh_of(half_solid(design), design, LADDER[0]))
+
+
+def solution(problem: Problem, displacement: Array) -> Solution:
+    return Solution(
+        problem=problem,
+        pressure=0.1,
+        displacement=displacement,
+        hydrostatic_pressure=np.zeros(len(problem.mesh.vertices)),
+        path=(),
+        converged=True,
+        message="made up",
+        newton_iterations=0,
+        factorizations=0,
+        load_steps=0,
+        refused_steps=0,
+        linear_solver="none",
+        negative_pivots=None,
+        seconds=0.0,
+    )
+
+
+def compressed(problem: Problem, shift: float) -> Array:
+    """Every bubble moved rigidly towards the root, by ``shift`` more than the one before it."""
+    x = problem.mesh.nodes[:, 0]
+    start = BELLOWS.bubble_middles[0] + BELLOWS.bubble_length / 2
+    period = (x - start) / BELLOWS.pitch
+    ramp = np.clip((period - np.floor(period)) * BELLOWS.pitch / GAP, 0, 1)
+    steps = np.clip(np.floor(period) + ramp, 0, BELLOWS.bubble_count - 1)
+    return np.column_stack([-shift * steps, np.zeros((len(x), 2))])
+
+
+def rolled(problem: Problem, turns: float) -> Array:
+    """The actuator bent to a circle about y by so many turns, bubbles outside."""
+    x, y, z = problem.mesh.nodes.T
+    radius = BELLOWS.length / (2 * np.pi * turns)
+    angle = x / radius
+    bent = np.column_stack([(radius + z) * np.sin(angle), y, (radius + z) * np.cos(angle) - radius])
+    return bent - problem.mesh.nodes
+
+
+def test_at_rest_the_narrowest_air_is_the_bubble_distance(problem: Problem) -> None:
+    contact = contact_of(BELLOWS, solution(problem, np.zeros_like(problem.mesh.nodes)))
+    assert not contact.detected and not contact.overlaps_itself
+    assert contact.min_gap_mm == pytest.approx(GAP, abs=1e-6)
+
+
+@pytest.mark.parametrize("shift", [-1.0, 0.4, 1.49])
+def test_bubbles_moved_together_are_nearer_by_that_much(problem: Problem, shift: float) -> None:
+    contact = contact_of(BELLOWS, solution(problem, compressed(problem, shift)))
+    assert not contact.detected and not contact.overlaps_itself
+    assert contact.min_gap_mm == pytest.approx(GAP - shift, abs=1e-6)
+
+
+@pytest.mark.parametrize("shift", [1.51, 1.8, 2.5])
+def test_bubbles_moved_into_each_other_touch(problem: Problem, shift: float) -> None:
+    contact = contact_of(BELLOWS, solution(problem, compressed(problem, shift)))
+    assert contact.detected
+    assert contact.min_gap_mm is not None and contact.min_gap_mm < 0
+
+
+def test_a_bend_away_from_the_bubbles_opens_their_gaps(problem: Problem) -> None:
+    contact = contact_of(BELLOWS, solution(problem, rolled(problem, 0.5)))
+    assert not contact.detected and not contact.overlaps_itself
+    assert contact.min_gap_mm is not None and contact.min_gap_mm > GAP
+
+
+def test_past_a_full_turn_distant_parts_overlap_and_neighbours_do_not(problem: Problem) -> None:
+    contact = contact_of(BELLOWS, solution(problem, rolled(problem, 1.2)))
+    assert contact.overlaps_itself
+    assert not contact.detected

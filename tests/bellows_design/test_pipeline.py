@@ -1,0 +1,50 @@
+"""The whole way with real stages: an approved design leaves as files, a refused one does not."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from pathlib import Path
+
+import pytest
+import trimesh
+
+from bellows_design import load_design, with_overrides
+from bellows_design.pipeline import run
+
+TWO_BUBBLES = ("length=18", "number_of_bubbles=2")
+
+
+def test_a_short_finger_is_approved_and_leaves_whole(tmp_path: Path) -> None:
+    design = with_overrides(load_design("finger"), TWO_BUBBLES)
+    outcome = run(design, tmp_path)
+    assert outcome.verdict.approved, outcome.verdict.reasons
+    folder = tmp_path / "finger"
+    manifest = json.loads((folder / "manifest.json").read_text("utf-8"))
+    written = sorted(path.name for path in folder.iterdir())
+    assert written == ["finger.3mf", "finger.step", "finger.stl", "manifest.json"]
+    for file in written[:3]:
+        digest = hashlib.sha256((folder / file).read_bytes()).hexdigest()
+        assert digest in json.dumps(manifest)
+    mesh = trimesh.load_mesh(folder / "finger.stl")
+    assert mesh.is_watertight
+    assert mesh.is_winding_consistent
+    assert mesh.volume > 0
+    assert manifest["digest"] == design.digest
+    assert manifest["evaluation"]["max_von_mises_mpa"] < 4
+
+
+def test_walls_of_no_whole_lines_are_refused_and_leave_nothing(tmp_path: Path) -> None:
+    design = with_overrides(load_design("prototype_1"), TWO_BUBBLES)
+    outcome = run(design, tmp_path)
+    rules = {reason.rule for reason in outcome.verdict.reasons}
+    assert {"wall_multiple", "wall_multiple_measured"} <= rules
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.slow
+def test_prototype_2_is_refused_for_its_stress_alone(tmp_path: Path) -> None:
+    """Its mesh-converged stress exceeds the limit that the paper says it keeps."""
+    outcome = run(load_design("prototype_2"), tmp_path)
+    assert [reason.rule for reason in outcome.verdict.reasons] == ["max_von_mises"]
+    assert outcome.verdict.reasons[0].kind == "stress"
