@@ -187,11 +187,10 @@ def _rectangle_profile(indent: Indent) -> list[cq.Edge]:
 
 def _inside_groove(bellows: BellowsParameters, indent: Indent) -> cq.Solid:
     """What an inside indent takes from the chamber's floor, about x = 0."""
-    half_x, floor = indent.width / 2, bellows.bubble_thickness
-    half_y = bellows.chamber_size[1] / 2 - max(bellows.chamber_fillet, SMALLEST_FEATURE)
-    top = bellows.tendon_height - bellows.tendon_thickness
-    lower, upper = (-half_x, -half_y, floor - indent.depth), (half_x, half_y, top)
-    return rounded_box(lower, upper, snapped_radius(indent.fillet, half_x))
+    x, y, z = indent.inside_size(bellows)
+    bottom = bellows.bubble_thickness - indent.depth
+    radius = snapped_radius(indent.fillet, min(x, y, z) / 2)
+    return rounded_box((-x / 2, -y / 2, bottom), (x / 2, y / 2, bottom + z), radius)
 
 
 def _port_boss(bellows: BellowsParameters, port: Port) -> NamedSolid:

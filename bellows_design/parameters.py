@@ -226,6 +226,11 @@ def _check_train(p: BellowsParameters) -> None:
         f"offset = {p.offset:g} mm",
     )
     _require(
+        p.offset >= p.tendon_thickness - 1e-9,
+        f"offset = {p.offset:g} mm leaves no room for the wall at the root; at least "
+        f"tendon_thickness = {p.tendon_thickness:g} mm is needed",
+    )
+    _require(
         p.root_length >= p.tendon_thickness - 1e-9,
         f"number_of_bubbles = {p.bubble_count} makes a train of {p.train_length:.4g} mm that "
         f"leaves {p.root_length:.3g} mm of root in length = {p.length:g} mm; at least "
@@ -266,6 +271,11 @@ class Indent(Parameters):
                 f"indent.depth = {self.depth:g} mm exceeds half of indent.width = "
                 f"{self.width:g} mm, the deepest arc",
             )
+        _require(
+            self.fillet == 0 or self.fillet >= FULL_ROUND_SNAP,
+            f"indent.fillet = {self.fillet:g} mm is no radius a printer resolves; it must be 0 or "
+            f"at least {FULL_ROUND_SNAP:g} mm",
+        )
         inside = self.side == "inside"
         most = self.width / 2 if inside else min(self.depth, self.width / 2)
         _require(
@@ -290,6 +300,28 @@ class Indent(Parameters):
             f"indent.width = {self.width:g} mm exceeds {widest:.3g} mm, the length of the "
             f"{'chamber' if inside else 'bubble'}",
         )
+        if inside:
+            self._check_room(bellows)
+
+    def _check_room(self, bellows: BellowsParameters) -> None:
+        _, across, height = self.inside_size(bellows)
+        _require(
+            across >= SMALLEST_FEATURE,
+            f"indent.side = 'inside' finds {max(0.0, across):.3g} mm of flat floor across the "
+            f"chamber; at least {SMALLEST_FEATURE:g} mm are needed",
+        )
+        most = min(across, height) / 2
+        _require(
+            self.fillet <= most + 1e-9,
+            f"indent.fillet = {self.fillet:g} mm exceeds {most:.3g} mm, half of the room for the "
+            "indent on the chamber's floor",
+        )
+
+    def inside_size(self, bellows: BellowsParameters) -> tuple[float, float, float]:
+        """Size (x, y, z) of the rounded box that an inside indent takes from the floor, mm."""
+        across = bellows.chamber_size[1] - 2 * max(bellows.chamber_fillet, SMALLEST_FEATURE)
+        top = bellows.tendon_height - bellows.tendon_thickness
+        return self.width, across, top - bellows.bubble_thickness + self.depth
 
     def remaining_wall(self, bellows: BellowsParameters) -> float:
         """Thickness of the bottom wall under the chamber where the indent is deepest, mm."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -42,15 +43,28 @@ def facing_gaps(mesh: Mesh, displacement: Reals, surface: str) -> Gaps:
     facets = _flat_facets(mesh.triangles(surface))
     body = trimesh.Trimesh(mesh.nodes + displacement, facets, process=False)
     centres, normals = body.triangles_center, body.face_normals
-    hits, rays, met = body.ray.intersects_location(
-        centres + LIFT * normals, normals, multiple_hits=False
-    )[0:3]
-    distances = np.linalg.norm(hits - centres[rays], axis=1)
+    rays, met, ahead = _first_met(body, centres, normals)
     cosine = np.einsum("ki,ki->k", normals[rays], normals[met])
     kept = np.abs(cosine) >= -OPPOSING
-    signed = np.where(cosine > 0, -distances, distances)[kept]
+    rays, met, ahead, inside = rays[kept], met[kept], ahead[kept], cosine[kept] > 0
+    behind = np.full(len(centres), np.inf)
+    back, _, depths = _first_met(body, centres, -normals, only=np.unique(rays[inside]))
+    behind[back] = depths
+    signed = np.where(inside, -np.minimum(ahead, behind[rays]), ahead)
     reference = mesh.nodes[facets].mean(axis=1)
-    return Gaps(signed, reference[rays[kept]], reference[met[kept]])
+    return Gaps(signed, reference[rays], reference[met])
+
+
+def _first_met(
+    body: Any, origins: Reals, directions: Reals, only: Integers | None = None
+) -> tuple[Integers, Integers, Reals]:
+    """Rays that meet a facet, the facets, and how far away each is, mm."""
+    chosen = np.arange(len(origins)) if only is None else only
+    start, along = origins[chosen], directions[chosen]
+    hits, rays, met = body.ray.intersects_location(
+        start + LIFT * along, along, multiple_hits=False
+    )[0:3]
+    return chosen[rays], met, np.linalg.norm(hits - start[rays], axis=1)
 
 
 def _flat_facets(triangles: Integers) -> Integers:

@@ -195,7 +195,6 @@ def test_a_port_that_misses_the_channel_is_refused_in_one_sentence() -> None:
         Port(tube_diameter=1).check_fits(high)
 
 
-@pytest.mark.xfail(reason="check_fits does not yet know the room across the chamber's floor")
 @pytest.mark.parametrize(
     "changes",
     [
@@ -210,14 +209,12 @@ def test_an_inside_indent_needs_room_across_the_floor(changes: dict[str, float])
         indent.check_fits(bellows)
 
 
-@pytest.mark.xfail(reason="slivers: only the bellows' own fillets are bounded below")
 def test_a_fillet_of_an_indent_too_small_to_print_is_refused() -> None:
     with pytest.raises(ValidationError) as error:
         Indent(shape="rectangular", depth=0.4, width=2.4, fillet=0.01)
     assert "indent.fillet = 0.01 mm" in sentence_of(error)
 
 
-@pytest.mark.xfail(reason="the sentence blames a number of bubbles that nobody gave")
 def test_an_offset_shorter_than_the_wall_at_the_root_is_named_as_the_reason() -> None:
     with pytest.raises(ValidationError) as error:
         changed(PROTOTYPE_1, offset=1.0)

@@ -83,7 +83,7 @@ def test_without_a_radius_it_is_a_box() -> None:
 
 
 def test_a_radius_beyond_half_of_the_box_is_refused() -> None:
-    with pytest.raises(ValueError, match="radius = 1.1 mm exceeds half of the box, 1 mm"):
+    with pytest.raises(ValueError, match=r"radius = 1\.1 mm exceeds half of the box, 1 mm"):
         placed((2.0, 5.0, 7.0), 1.1)
 
 

@@ -63,7 +63,6 @@ def test_plates_that_run_into_each_other_have_a_negative_distance(plates: Mesh) 
     assert set(np.round(starts, 9)) == {LOWER, UPPER}  # each one's face is inside the other
 
 
-@pytest.mark.xfail(reason="the distance to the way out ahead is returned, here 1 - depth")
 @pytest.mark.parametrize("depth", [0.01, 0.3])
 def test_the_negative_distance_is_the_depth_of_the_overlap(plates: Mesh, depth: float) -> None:
     gaps = facing_gaps(plates, lifting(plates, -GAP - depth), "outside")
