@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bellows_design.geometry import OUTSIDE
+from bellows_design.geometry import OUTSIDE, ROOT, SYMMETRY, TIP
 from bellows_design.parameters import BellowsParameters
 from solver import Solution
 from solver.proximity import facing_gaps
@@ -28,7 +28,9 @@ class Contact:
 
 def contact_of(bellows: BellowsParameters, solution: Solution) -> Contact:
     """Contact in a deformed actuator, full or half."""
-    gaps = facing_gaps(solution.problem.mesh, solution.displacement, OUTSIDE)
+    mesh = solution.problem.mesh
+    closed = (name for name in (OUTSIDE, ROOT, TIP, SYMMETRY) if name in mesh.surfaces)
+    gaps = facing_gaps(mesh, solution.displacement, *closed)
     apart = np.abs(_bubble(bellows, gaps.starts) - _bubble(bellows, gaps.ends))
     near = gaps.distances[apart <= 1]
     narrowest = float(near.min()) if near.size else None

@@ -31,8 +31,11 @@ class Gaps:
     ends: Reals
 
 
-def facing_gaps(mesh: Mesh, displacement: Reals, surface: str) -> Gaps:
-    """Gaps of ``surface`` to itself after ``displacement`` (n, 3), seen from every facet.
+def facing_gaps(mesh: Mesh, displacement: Reals, *surfaces: str) -> Gaps:
+    """Gaps of ``surfaces`` to each other after ``displacement`` (n, 3), seen from every facet.
+
+    Together the surfaces should close the body: a ray that slips in through a hole meets walls
+    from within and passes for an overlap.
 
     Six-node triangles are split into four flat facets. A ray from each runs outwards to the first
     facet it meets; it counts if the two face each other, or if it leaves the body there, which
@@ -40,7 +43,7 @@ def facing_gaps(mesh: Mesh, displacement: Reals, surface: str) -> Gaps:
     """
     import trimesh
 
-    facets = _flat_facets(mesh.triangles(surface))
+    facets = _flat_facets(mesh.triangles(*surfaces))
     body = trimesh.Trimesh(mesh.nodes + displacement, facets, process=False)
     centres, normals = body.triangles_center, body.face_normals
     rays, met, ahead = _first_met(body, centres, normals)

@@ -89,6 +89,14 @@ def test_a_bend_away_from_the_bubbles_opens_their_gaps(problem: Problem) -> None
     assert contact.min_gap_mm is not None and contact.min_gap_mm > GAP
 
 
+@pytest.mark.parametrize("turns", [0.6, 0.7, 0.8, 0.9])  # 0.8: root rays meet the tip's face
+def test_a_tip_that_faces_the_root_across_the_air_overlaps_nothing(
+    problem: Problem, turns: float
+) -> None:
+    contact = contact_of(BELLOWS, solution(problem, rolled(problem, turns)))
+    assert not contact.overlaps_itself and not contact.detected
+
+
 def test_past_a_full_turn_distant_parts_overlap_and_neighbours_do_not(problem: Problem) -> None:
     contact = contact_of(BELLOWS, solution(problem, rolled(problem, 1.2)))
     assert contact.overlaps_itself
