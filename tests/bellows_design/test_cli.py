@@ -250,7 +250,7 @@ def test_the_readme_installs_what_the_program_asks_for() -> None:
     asked = set(INSTALL.split()[3:])
     (line,) = [line for line in readme.splitlines() if "apt-get install -y" in line]
     assert asked <= set(line.split())
-    assert "pip install ." in readme and "'.[test]'" in readme
+    assert "pip install -e ." in readme and "'.[test]'" in readme
 
 
 def test_the_readmes_python_example_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
