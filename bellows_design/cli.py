@@ -40,7 +40,10 @@ Settings = Annotated[
 ]
 AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object instead of text.")]
 Pressure = Annotated[
-    float | None, typer.Option(metavar="MPA", help="Pressure instead of the design's, MPa.")
+    str | None,
+    typer.Option(
+        metavar="MPA", help="Pressure instead of the design's, MPa; START:STOP:STEP for a curve."
+    ),
 ]
 
 
@@ -48,7 +51,9 @@ class Model(StrEnum):
     """Models to evaluate with."""
 
     auto = "auto"
+    unit_cell = "unit-cell"
     half = "half"
+    full = "full"
 
 
 @app.callback(invoke_without_command=True)
@@ -167,16 +172,18 @@ def evaluate(
 
     def work() -> Answer:
         from bellows_design import tables
+        from bellows_design.pressures import parse_pressures
         from bellows_design.progress import on_stderr
 
-        chosen = _load(name, settings, pressure)
+        pressures = () if pressure is None else parse_pressures(pressure)
+        chosen = _load(name, settings, pressures[-1] if pressures else None)
         if vtu is not None:
             _require_suffix(vtu, ".vtu")
             _require_folder(vtu)
         from bellows_design import evaluation  # heavy: not before the input is known to be good
 
         with on_stderr() as progress:
-            result = evaluation.evaluate(chosen, model.value, accuracy, progress=progress)
+            result = evaluation.evaluate(chosen, model.value, accuracy, pressures, progress)
             if vtu is not None:
                 evaluation.write_vtu(result, vtu)
         content = result.to_dict()

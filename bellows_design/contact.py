@@ -8,7 +8,7 @@ import numpy as np
 
 from bellows_design.geometry import OUTSIDE, ROOT, SYMMETRY, TIP
 from bellows_design.parameters import BellowsParameters
-from solver import Solution
+from solver import Mesh
 from solver.proximity import facing_gaps
 
 
@@ -26,11 +26,10 @@ class Contact:
     overlaps_itself: bool
 
 
-def contact_of(bellows: BellowsParameters, solution: Solution) -> Contact:
-    """Contact in a deformed actuator, full or half."""
-    mesh = solution.problem.mesh
+def contact_of(bellows: BellowsParameters, mesh: Mesh, displacement: np.ndarray) -> Contact:
+    """Contact in an actuator, full or half, after ``displacement`` (n, 3), mm."""
     closed = (name for name in (OUTSIDE, ROOT, TIP, SYMMETRY) if name in mesh.surfaces)
-    gaps = facing_gaps(mesh, solution.displacement, *closed)
+    gaps = facing_gaps(mesh, displacement, *closed)
     apart = np.abs(_bubble(bellows, gaps.starts) - _bubble(bellows, gaps.ends))
     near = gaps.distances[apart <= 1]
     narrowest = float(near.min()) if near.size else None

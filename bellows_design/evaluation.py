@@ -1,7 +1,8 @@
 """A design under pressure: bending angle, highest stress, and how far off they may be.
 
-The load is walked on a coarse mesh; a finer mesh starts from its solution at full load and needs
-a handful of iterations. The difference between the two is the error estimate.
+The load is walked on a coarse mesh; a finer mesh, refined where the solution is least accurate,
+starts from it at full load and needs a handful of iterations. The difference between the last two
+is the error estimate.
 """
 
 from __future__ import annotations
@@ -13,23 +14,28 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from bellows_design.design import Design
+from bellows_design.models import HALF, UNIT_CELL, Model, choose, shortened
 from bellows_design.progress import Progress, Silence
 
 if TYPE_CHECKING:
     from bellows_design.contact import Contact
     from bellows_design.solids import NamedSolid
-    from solver import Event, PathPoint, Peak, Solution
+    from solver import Event, Mesh, PathPoint, Peak, Solution
+    from solver.arrays import Reals
 
-MODELS = ("auto", "half")
 SILENCE = Silence()
-LEVELS = 2
-"""Meshes used unless more accuracy is asked for."""
 
-ANGLE_SAFETY, LEAST_ANGLE_ERROR = 2.0, 0.01
+ANGLE_SAFETY, LEAST_ANGLE_ERROR, ENDS_ERROR = 2.0, 0.01, 0.3
 """Factors of the angle's error estimate; see ``Evaluation.error_estimate``."""
 
-REASON = "half of the actuator answers for all of it: body and load are symmetric about y = 0"
+MOST_ELEMENTS = 60_000
+"""No mesh is refined past this: the factorization would take about 6 GiB."""
+
+ROUGH = 1e-3
+"""Newton tolerance on meshes that are only a step to the next, in units of the body's diagonal."""
 
 
 @dataclass(frozen=True)
@@ -41,19 +47,33 @@ class ErrorEstimate:
 
 
 @dataclass(frozen=True)
+class Reading:
+    """What one equilibrium says about the whole actuator."""
+
+    pressure_mpa: float
+    bending_angle_deg: float
+    max_von_mises_mpa: float
+    cavity_volume_mm3: float
+
+
+@dataclass(frozen=True)
 class Evaluation:
     """What the solver found for a design at ``pressure_mpa``, the pressure it reached.
 
-    ``solutions`` holds one solution for each mesh, the finest last; ``seconds`` the time spent on
-    geometry, mesh and solve. Without convergence all numbers are those of the last good state.
+    ``solutions`` holds one solution for each mesh, the finest last; ``ends`` that of a short
+    actuator of one bubble, on the unit cell's coarsest mesh size; ``pressures`` (MPa) those asked
+    for besides the design's; ``seconds`` the time spent on geometry, mesh and solve. Without
+    convergence all numbers are those of the last good state.
     """
 
     design: Design
+    model: Model
+    reason: str
     solid: NamedSolid
     solutions: tuple[Solution, ...]
     seconds: Mapping[str, float]
-    model: str = "half"
-    reason: str = REASON
+    pressures: tuple[float, ...] = ()
+    ends: Solution | None = None
 
     @property
     def finest(self) -> Solution:
@@ -63,29 +83,68 @@ class Evaluation:
     @property
     def converged(self) -> bool:
         """True if every mesh reached the design pressure."""
-        return all(solution.converged for solution in self.solutions)
+        return all(solution.converged for solution in self._all)
+
+    @property
+    def _all(self) -> tuple[Solution, ...]:
+        return self.solutions if self.ends is None else (*self.solutions, self.ends)
 
     @property
     def can_refine(self) -> bool:
         """True if there is a finer mesh to go to."""
-        from bellows_design.analysis import LADDER
-
-        return self.converged and len(self.solutions) < len(LADDER)
+        elements = len(self.finest.problem.mesh.tets)
+        return self.converged and elements * self.model.growth <= MOST_ELEMENTS
 
     @property
     def message(self) -> str:
         """How far the load came and why it stopped."""
+        if self.ends is not None and not self.ends.converged:
+            return f"the ends: {self.ends.message}"
         return self.finest.message
 
     @property
     def pressure_mpa(self) -> float:
         """Pressure reached, MPa."""
-        return self.finest.pressure
+        return min(solution.pressure for solution in self._all)
 
     @property
     def bending_angle_deg(self) -> float:
         """Rotation of the tip against the root, degrees; past 360 where it curls on."""
-        return self.finest.rotation
+        return self._reading(self.finest.path[-1]).bending_angle_deg
+
+    @property
+    def cavity_volume_mm3(self) -> float:
+        """Air inside the whole deformed actuator, mm³."""
+        return self._reading(self.finest.path[-1]).cavity_volume_mm3
+
+    @property
+    def curve(self) -> tuple[Reading, ...]:
+        """Readings at the pressures asked for, on the finest mesh; the design's is the last."""
+        path = self.finest.path
+        wanted = [p for p in path if np.isclose(p.pressure, self.pressures, atol=1e-12).any()]
+        return tuple(self._reading(point) for point in wanted)
+
+    def _reading(self, point: PathPoint) -> Reading:
+        """The whole actuator, from a point on the path of one of the solutions."""
+        angle, volume = point.rotation, self.model.share * point.volume
+        if self.model is UNIT_CELL:
+            count = self.design.bellows.bubble_count
+            turned, more = self._added_by_ends(point.pressure)
+            angle, volume = count * 2 * angle + turned, count * volume + more
+        return Reading(point.pressure, angle, point.max_von_mises, volume)
+
+    def _added_by_ends(self, pressure: float) -> tuple[float, float]:
+        """Rotation (°) and volume (mm³) by which a short actuator differs from its one bubble.
+
+        Both come from meshes of the same size, so that the mesh's own error drops out.
+        """
+        if self.ends is None:
+            return 0.0, 0.0
+        short, cell = _at(self.ends, pressure), _at(self.solutions[0], pressure)
+        return (
+            short.rotation - 2 * cell.rotation,
+            HALF.share * short.volume - UNIT_CELL.share * cell.volume,
+        )
 
     @cached_property
     def peaks(self) -> tuple[Peak, ...]:
@@ -100,41 +159,44 @@ class Evaluation:
         return self.peaks[-1].value
 
     @property
+    def max_von_mises_position_mm(self) -> tuple[float, float, float]:
+        """Where it is in the undeformed actuator, mm; of all bubbles alike, in the middle one."""
+        x, y, z = self.peaks[-1].position
+        middles = self.design.bellows.bubble_middles
+        return (x + middles[len(middles) // 2] if self.model is UNIT_CELL else x), y, z
+
+    @property
     def error_estimate(self) -> ErrorEstimate:
         """From the difference between the last two meshes, in percent of the finest.
 
-        The angle takes twice the difference, for it can change as much again on the next mesh (by
-        1.7 times, measured on Prototype 1). Two meshes can also agree by chance: so the angle's
-        estimate never falls below 1 %, and the stress is taken no better than half of how much
-        the elements around its place disagree.
+        The angle takes twice the difference, for it can change as much again on the next mesh.
+        Two meshes can also agree by chance: so the angle's estimate never falls below 1 %, and the
+        stress is taken no better than half of how much the elements around its place disagree.
+        What the ends add is known to about a third.
         """
         if len(self.solutions) < 2 or not self.converged:
             return ErrorEstimate()
         (coarse, fine), (before, peak) = self.solutions[-2:], self.peaks[-2:]
         stress_error = max(abs(before.value - peak.value), peak.scatter / 2)
-        angle_error = max(
-            ANGLE_SAFETY * abs(coarse.rotation - fine.rotation),
-            LEAST_ANGLE_ERROR * abs(fine.rotation),
-        )
+        angle = self.bending_angle_deg
+        change = angle - self._reading(coarse.path[-1]).bending_angle_deg
+        ends, _ = self._added_by_ends(fine.pressure)
+        angle_error = max(ANGLE_SAFETY * abs(change), LEAST_ANGLE_ERROR * abs(angle))
         return ErrorEstimate(
-            _percent(angle_error, fine.rotation), _percent(stress_error, peak.value)
+            _percent(angle_error + ENDS_ERROR * abs(ends), angle),
+            _percent(stress_error, peak.value),
         )
-
-    @cached_property
-    def cavity_volume_mm3(self) -> float:
-        """Air inside the whole deformed actuator, mm³."""
-        from bellows_design.geometry import CAVITY
-        from solver import cavity_volume
-
-        solution = self.finest
-        return 2 * cavity_volume(solution.problem.mesh, solution.displacement, (CAVITY,))
 
     @cached_property
     def contact(self) -> Contact:
         """Whether bubbles touch, and how near they come."""
+        from bellows_design.chain import chain
         from bellows_design.contact import contact_of
 
-        return contact_of(self.design.bellows, self.finest)
+        bellows, solution = self.design.bellows, self.finest
+        if self.model is UNIT_CELL:
+            return contact_of(bellows, *chain(bellows, solution))
+        return contact_of(bellows, solution.problem.mesh, solution.displacement)
 
     def to_dict(self) -> dict[str, Any]:
         """Plain values for JSON; the README says what they mean."""
@@ -143,22 +205,23 @@ class Evaluation:
         return {
             "design": self.design.name,
             "digest": self.design.digest,
-            "model": self.model,
+            "model": self.model.name,
             "model_reason": self.reason,
             "pressure_mpa": self.pressure_mpa,
             "converged": self.converged,
             "message": self.message,
             "bending_angle_deg": self.bending_angle_deg,
             "max_von_mises_mpa": self.max_von_mises_mpa,
-            "max_von_mises_position_mm": list(self.peaks[-1].position),
+            "max_von_mises_position_mm": list(self.max_von_mises_position_mm),
             "cavity_volume_mm3": self.cavity_volume_mm3,
             "contact": asdict(self.contact),
             "error_estimate": asdict(self.error_estimate),
             "mesh": _size(self.finest),
-            "meshes": [_size(s) | _point(s.path[-1]) for s in self.solutions],
-            "solver": _effort(self.solutions),
+            "meshes": [_size(s) | asdict(self._reading(s.path[-1])) for s in self.solutions],
+            "solver": _effort(self._all),
             "seconds": {**self.seconds, "total": sum(self.seconds.values())},
-            "path": [_point(point) for point in self._path()],
+            "path": [asdict(self._reading(point)) for point in self._path()],
+            "curve": [asdict(reading) for reading in self.curve],
             "versions": versions(),
         }
 
@@ -171,26 +234,31 @@ def evaluate(
     design: Design,
     model: str = "auto",
     accuracy_percent: float | None = None,
+    pressures: Sequence[float] = (),
     progress: Progress = SILENCE,
 ) -> Evaluation:
-    """Evaluate ``design`` at its design pressure.
+    """Evaluate ``design`` at its design pressure, and at the lower ``pressures`` (MPa).
 
-    ``model`` is ``auto`` or ``half``. With ``accuracy_percent`` the mesh is refined until both
-    error estimates keep it, or the ladder of meshes ends: the estimates then say what was reached.
-    A load that cannot be reached gives an evaluation with ``converged`` False.
+    ``model`` is ``auto``, ``unit-cell``, ``half`` or ``full``. With ``accuracy_percent`` the mesh
+    is refined until both error estimates keep it, or the meshes become too large: the estimates
+    then say what was reached. A load that cannot be reached gives an evaluation with
+    ``converged`` False.
 
     Raises:
-        ValueError: unknown model, accuracy out of bounds, or a geometry the CAD kernel refuses.
+        ValueError: unknown model, accuracy or pressures out of bounds, or a geometry the CAD
+            kernel refuses.
         MeshingError: no usable mesh.
     """
-    from bellows_design.analysis import half_solid
-
-    _check(model, accuracy_percent)
-    progress.stage("geometry of the half")
+    chosen, reason = choose(design, model)
+    _check(design, accuracy_percent, pressures)
+    progress.stage(f"geometry of the {chosen.name}")
     start = time.perf_counter()
-    solid = half_solid(design)
+    solid = chosen.solid(design)
     spent = {"geometry": time.perf_counter() - start, "mesh": 0.0, "solve": 0.0}
-    evaluation = refined(Evaluation(design, solid, (), spent), progress)
+    blank = Evaluation(design, chosen, reason, solid, (), spent, tuple(sorted(pressures)))
+    evaluation = refined(blank, progress)
+    if chosen is UNIT_CELL and evaluation.converged:
+        evaluation = _with_ends(evaluation, progress)
     while evaluation.can_refine and not _enough(evaluation, accuracy_percent):
         evaluation = refined(evaluation, progress)
     return evaluation
@@ -198,28 +266,79 @@ def evaluate(
 
 def refined(evaluation: Evaluation, progress: Progress = SILENCE) -> Evaluation:
     """The same evaluation on one finer mesh, started from the finest solution at hand."""
-    from bellows_design.analysis import LADDER, half_problem, mesh_of
-    from solver import solve, transfer
+    from bellows_design.analysis import finer_mesh, first_mesh
+    from solver import transfer
+
+    design, model, level = evaluation.design, evaluation.model, len(evaluation.solutions)
+    progress.stage(f"mesh {level + 1}")
+    began = time.perf_counter()
+    if level == 0:
+        mesh = first_mesh(evaluation.solid, design)
+    else:
+        mesh = finer_mesh(evaluation.solid, design, evaluation.finest, model.refinement)
+    meshed = time.perf_counter()
+    progress.stage(f"solve {level + 1}, {len(mesh.tets)} tetrahedra")
+    initial = transfer(evaluation.finest, mesh) if level else None
+    solution = _solved(evaluation, model, mesh, progress, initial, rough=level + 1 < model.levels)
+    return _spent(
+        replace(evaluation, solutions=(*evaluation.solutions, solution)),
+        0.0,
+        meshed - began,
+        meshed,
+    )
+
+
+def _with_ends(evaluation: Evaluation, progress: Progress) -> Evaluation:
+    """With the solution of a short actuator, on the mesh size of the coarsest cell."""
+    from bellows_design.analysis import first_mesh
+
+    progress.stage("ends: an actuator of one bubble")
+    began = time.perf_counter()
+    short = shortened(evaluation.design)
+    solid = HALF.solid(short)
+    built = time.perf_counter()
+    mesh = first_mesh(solid, short)
+    meshed = time.perf_counter()
+    stops = tuple(point.pressure for point in evaluation.solutions[0].path[1:-1])
+    passing = replace(evaluation, design=short, pressures=stops)
+    ends = _solved(passing, HALF, mesh, progress, None, rough=True)
+    return _spent(replace(evaluation, ends=ends), built - began, meshed - built, meshed)
+
+
+def _solved(
+    evaluation: Evaluation,
+    model: Model,
+    mesh: Mesh,
+    progress: Progress,
+    initial: tuple[Reals, Reals] | None,
+    rough: bool,
+) -> Solution:
+    """Solve on a mesh; a rough solution is only a step to the next."""
+    from solver import SolverOptions, solve
 
     def report(event: Event) -> None:
         progress.load(event.load, event.rotation)
 
-    design, level = evaluation.design, len(evaluation.solutions)
-    progress.stage(f"mesh {level + 1}")
-    began = time.perf_counter()
-    mesh = mesh_of(evaluation.solid, design, LADDER[level])
-    meshed = time.perf_counter()
-    progress.stage(f"solve {level + 1}, {len(mesh.tets)} tetrahedra")
-    initial = transfer(evaluation.finest, mesh) if level else None
-    solution = solve(
-        half_problem(design, mesh), design.load.pressure, listener=report, initial=initial
+    design = evaluation.design
+    return solve(
+        model.problem(design, mesh),
+        design.load.pressure,
+        SolverOptions(tolerance=ROUGH) if rough else None,
+        listener=report,
+        initial=initial,
+        stops=() if rough and initial is not None else evaluation.pressures,
     )
-    spent = {
-        "geometry": evaluation.seconds["geometry"],
-        "mesh": evaluation.seconds["mesh"] + meshed - began,
-        "solve": evaluation.seconds["solve"] + time.perf_counter() - meshed,
+
+
+def _spent(evaluation: Evaluation, geometry: float, mesh: float, since: float) -> Evaluation:
+    """Add seconds of geometry and mesh, and the solve's ``since`` a time."""
+    seconds = evaluation.seconds
+    more = {
+        "geometry": seconds["geometry"] + geometry,
+        "mesh": seconds["mesh"] + mesh,
+        "solve": seconds["solve"] + time.perf_counter() - since,
     }
-    return replace(evaluation, solutions=(*evaluation.solutions, solution), seconds=spent)
+    return replace(evaluation, seconds=more)
 
 
 def write_vtu(evaluation: Evaluation, path: Path) -> None:
@@ -231,18 +350,29 @@ def write_vtu(evaluation: Evaluation, path: Path) -> None:
         write(temporary, evaluation.finest)
 
 
-def _check(model: str, accuracy_percent: float | None) -> None:
-    if model not in MODELS:
-        raise ValueError(f"model = {model!r} must be one of {', '.join(MODELS)}.")
+def _check(design: Design, accuracy_percent: float | None, pressures: Sequence[float]) -> None:
     if accuracy_percent is not None and not 0.01 <= accuracy_percent <= 100:
         raise ValueError(f"accuracy = {accuracy_percent:g} % must lie between 0.01 and 100 %.")
+    highest = design.load.pressure
+    for pressure in pressures:
+        if not 0 < pressure <= highest * (1 + 1e-12):
+            raise ValueError(
+                f"pressure = {pressure:g} MPa must lie above 0 and not above the design's "
+                f"{highest:g} MPa."
+            )
 
 
 def _enough(evaluation: Evaluation, accuracy_percent: float | None) -> bool:
-    if len(evaluation.solutions) < LEVELS or accuracy_percent is None:
-        return len(evaluation.solutions) >= LEVELS
+    levels = evaluation.model.levels
+    if len(evaluation.solutions) < levels or accuracy_percent is None:
+        return len(evaluation.solutions) >= levels
     estimates = astuple(evaluation.error_estimate)
     return all(error is not None and error <= accuracy_percent for error in estimates)
+
+
+def _at(solution: Solution, pressure: float) -> PathPoint:
+    """The point of a solution's path nearest to a pressure."""
+    return min(solution.path, key=lambda point: abs(point.pressure - pressure))
 
 
 def _percent(error: float, value: float) -> float | None:
@@ -252,9 +382,13 @@ def _percent(error: float, value: float) -> float | None:
 def _size(solution: Solution) -> dict[str, int]:
     from solver.constraints import number_unknowns
 
-    mesh, supports = solution.problem.mesh, solution.problem.supports
-    unknowns = number_unknowns(mesh, supports).size
-    return {"elements": len(mesh.tets), "nodes": len(mesh.nodes), "unknowns": unknowns}
+    problem = solution.problem
+    unknowns = number_unknowns(problem.mesh, problem.supports, problem.moving_plane).size
+    return {
+        "elements": len(problem.mesh.tets),
+        "nodes": len(problem.mesh.nodes),
+        "unknowns": unknowns,
+    }
 
 
 def _effort(solutions: Sequence[Solution]) -> dict[str, int | str]:
@@ -263,12 +397,4 @@ def _effort(solutions: Sequence[Solution]) -> dict[str, int | str]:
         "newton_iterations": sum(solution.newton_iterations for solution in solutions),
         "factorizations": sum(solution.factorizations for solution in solutions),
         "linear_solver": solutions[-1].linear_solver,
-    }
-
-
-def _point(point: PathPoint) -> dict[str, float]:
-    return {
-        "pressure_mpa": point.pressure,
-        "bending_angle_deg": point.rotation,
-        "max_von_mises_mpa": point.max_von_mises,
     }

@@ -37,6 +37,7 @@ OUTSIDE, CAVITY, ROOT, TIP, SYMMETRY, PORT = (
     "symmetry",
     "port",
 )
+BUBBLE_MIDDLE, GAP_MIDDLE = "bubble_middle", "gap_middle"
 BEYOND = 1.0
 """mm. How far a cutting solid reaches past what it cuts."""
 
@@ -68,13 +69,55 @@ def half_body(bellows: BellowsParameters, indent: Indent | None) -> NamedSolid:
     return cut(full_body(bellows, indent), named(other_half, SYMMETRY))
 
 
+def unit_cell(bellows: BellowsParameters, indent: Indent | None) -> NamedSolid:
+    """Half of a bubble, half of its width: what repeats in the middle of the actuator.
+
+    From the middle of a bubble at x = 0 to the middle of the gap at x = pitch / 2, y >= 0. Faces:
+    ``cavity``, ``outside``, ``bubble_middle``, ``gap_middle``, ``symmetry``.
+    Raises like :func:`printed_part`.
+    """
+    width, height, end = bellows.bubble_width, bellows.bubble_height, bellows.pitch / 2
+    body = cut(_cell_outside(bellows, indent), _cell_cavity(bellows, indent))
+    other_half = box((-2 * end, -width, -BEYOND), (2 * end, 0, height + BEYOND))
+    before = box((-2 * end, -width, -BEYOND), (0, width, height + BEYOND))
+    return cut(body, named(other_half, SYMMETRY), named(before, BUBBLE_MIDDLE))
+
+
+def _cell_outside(bellows: BellowsParameters, indent: Indent | None) -> NamedSolid:
+    """Outside of one bubble at x = 0 with the tendon from gap middle to gap middle."""
+    half, end = bellows.tendon_width / 2, bellows.pitch / 2
+    tendon = named(box((-end, -half, 0), (end, half, bellows.tendon_height)), OUTSIDE)
+    outer = fused(tendon.renamed(_section_name), named(_bubble(bellows), OUTSIDE))
+    if indent is None or indent.side == "inside":
+        return outer
+    indent.check_fits(bellows)
+    return cut(outer, named(_outside_groove(indent, bellows.bubble_width / 2 + BEYOND), OUTSIDE))
+
+
+def _cell_cavity(bellows: BellowsParameters, indent: Indent | None) -> NamedSolid:
+    """Air in one bubble at x = 0, and in the channel beyond its gap's middles."""
+    half, wall, radius = bellows.channel_width / 2, bellows.tendon_thickness, bellows.channel_fillet
+    end = bellows.pitch / 2 + radius + BEYOND
+    channel = rounded_box((-end, -half, wall), (end, half, bellows.tendon_height - wall), radius)
+    cavity = fused(named(channel, CAVITY), named(_chamber(bellows), CAVITY))
+    if indent is None or indent.side == "outside":
+        return cavity
+    indent.check_fits(bellows)
+    return fused(cavity, named(_inside_groove(bellows, indent), CAVITY))
+
+
+def _section_name(face: cq.Face, own: str) -> str:
+    """Name of a face of the cell's tendon: its ends are middles of gaps."""
+    return GAP_MIDDLE if abs(face.normalAt().x) > 0.5 else own
+
+
 def full_body(bellows: BellowsParameters, indent: Indent | None) -> NamedSolid:
     """The whole actuator with its cavity closed (no port); faces as in :func:`half_body`."""
     return cut(_outer(bellows, indent), _cavity(bellows, indent))
 
 
 def _outer(bellows: BellowsParameters, indent: Indent | None) -> NamedSolid:
-    outer = fused(_tendon(bellows), *_bubbles(bellows))
+    outer = fused(_tendon(bellows), *_repeated(_bubble(bellows), bellows, OUTSIDE))
     if indent is None or indent.side == "inside":
         return outer
     indent.check_fits(bellows)
@@ -94,8 +137,8 @@ def _end_name(face: cq.Face, own: str) -> str:
     return ROOT if along < -0.5 else TIP if along > 0.5 else own
 
 
-def _bubbles(bellows: BellowsParameters) -> list[NamedSolid]:
-    """Bubbles rounded on all edges but those they stand on: flat on the print bed.
+def _bubble(bellows: BellowsParameters) -> cq.Solid:
+    """A bubble about x = 0, rounded on all edges but those it stands on: flat on the print bed.
 
     Rounding these too would leave an overhang that starts at the bed, and a cusp where the round
     touches the tendon's flat bottom; it moves the angle by less than 0.5 % for Prototype 1.
@@ -105,20 +148,24 @@ def _bubbles(bellows: BellowsParameters) -> list[NamedSolid]:
     lower, upper = (-length / 2, -width / 2, -below), (length / 2, width / 2, height)
     rounded = named(rounded_box(lower, upper, bellows.bubble_fillet), OUTSIDE)
     under = box((-length, -width, -2 * below), (length, width, 0))
-    return _repeated(cut(rounded, named(under, OUTSIDE)).solid, bellows, OUTSIDE)
+    return cut(rounded, named(under, OUTSIDE)).solid
 
 
 def _cavity(bellows: BellowsParameters, indent: Indent | None) -> NamedSolid:
     """All the air inside as one solid: the chambers and the channel that joins them."""
-    length, width, height = bellows.chamber_size
-    floor = bellows.bubble_thickness
-    lower, upper = (-length / 2, -width / 2, floor), (length / 2, width / 2, floor + height)
-    chambers = _repeated(rounded_box(lower, upper, bellows.chamber_fillet), bellows, CAVITY)
-    cavity = fused(_channel(bellows), *chambers)
+    cavity = fused(_channel(bellows), *_repeated(_chamber(bellows), bellows, CAVITY))
     if indent is None or indent.side == "outside":
         return cavity
     indent.check_fits(bellows)
     return fused(cavity, *_repeated(_inside_groove(bellows, indent), bellows, CAVITY))
+
+
+def _chamber(bellows: BellowsParameters) -> cq.Solid:
+    """The air in a bubble about x = 0."""
+    length, width, height = bellows.chamber_size
+    floor = bellows.bubble_thickness
+    lower, upper = (-length / 2, -width / 2, floor), (length / 2, width / 2, floor + height)
+    return rounded_box(lower, upper, bellows.chamber_fillet)
 
 
 def _channel(bellows: BellowsParameters) -> NamedSolid:

@@ -43,8 +43,8 @@ def evaluation_table(evaluation: Mapping[str, Any]) -> Sequence[RenderableType]:
         "at (x, y, z)": _place(evaluation["max_von_mises_position_mm"]),
         "cavity volume": _value(evaluation["cavity_volume_mm3"], " mm³"),
         "contact": _contact(evaluation["contact"]),
-        "model": f"{evaluation['model']}, {mesh['elements']} tetrahedra, "
-        f"{mesh['unknowns']} unknowns",
+        "model": f"{evaluation['model']} ({evaluation['model_reason']}), "
+        f"{mesh['elements']} tetrahedra, {mesh['unknowns']} unknowns",
         "solver": f"{solver['load_steps']} load steps, {solver['newton_iterations']} iterations, "
         f"{solver['linear_solver']}",
         "time": f"{seconds['total']:.1f} s",
@@ -52,7 +52,23 @@ def evaluation_table(evaluation: Mapping[str, Any]) -> Sequence[RenderableType]:
     table = Table(title=evaluation["design"], title_justify="left", box=SIMPLE, show_header=False)
     for name, value in rows.items():
         table.add_row(name, Text(value))
-    return [table, *([] if evaluation["converged"] else [_not_reached(evaluation)])]
+    curve = [_curve(evaluation["curve"])] if len(evaluation.get("curve", ())) > 1 else []
+    return [table, *curve, *([] if evaluation["converged"] else [_not_reached(evaluation)])]
+
+
+def _curve(readings: Sequence[Mapping[str, float]]) -> Table:
+    """Angle, stress and volume over the pressure."""
+    table = Table(box=SIMPLE)
+    for heading in ("pressure, MPa", "angle, °", "stress, MPa", "cavity, mm³"):
+        table.add_column(heading, justify="right")
+    for reading in readings:
+        table.add_row(
+            f"{reading['pressure_mpa']:.4g}",
+            f"{reading['bending_angle_deg']:.2f}",
+            f"{reading['max_von_mises_mpa']:.3f}",
+            f"{reading['cavity_volume_mm3']:.0f}",
+        )
+    return table
 
 
 def outcome_table(outcome: Mapping[str, Any]) -> Sequence[RenderableType]:

@@ -7,6 +7,7 @@ leads to stderr, so that a JSON answer stands alone.
 from __future__ import annotations
 
 import dis
+import gc
 import os
 import sys
 from collections.abc import Callable, Iterator, Sequence
@@ -26,6 +27,10 @@ TRACEBACK = "BELLOWS_TRACEBACK"
 
 _OURS = ("bellows_design", "solver", "printers")
 
+OBJECTS_BETWEEN_COLLECTIONS = 50_000
+"""Python's 700 make it search the libraries' classes for garbage a thousand times as they load:
+half a second of an evaluation, and all of them stay."""
+
 
 @dataclass(frozen=True)
 class Answer:
@@ -39,7 +44,7 @@ class Answer:
 def answer(work: Callable[[], Answer], as_json: bool) -> None:
     """Do ``work`` and print its answer, or one sentence on why there is none; then exit."""
     try:
-        with stdout_is_stderr():
+        with stdout_is_stderr(), rare_garbage_collection():
             result = work()
     except BaseException as error:
         if os.environ.get(TRACEBACK) or isinstance(error, SystemExit | GeneratorExit):
@@ -95,6 +100,17 @@ def stdout_is_stderr() -> Iterator[None]:
             _flush_c_streams()
         os.dup2(saved, 1)
         os.close(saved)
+
+
+@contextmanager
+def rare_garbage_collection() -> Iterator[None]:
+    """Within the block, look for unreachable cycles of objects less often than Python would."""
+    usual = gc.get_threshold()
+    gc.set_threshold(OBJECTS_BETWEEN_COLLECTIONS)
+    try:
+        yield
+    finally:
+        gc.set_threshold(*usual)
 
 
 def _flush_c_streams() -> None:

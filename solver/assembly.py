@@ -5,29 +5,18 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from solver import kernels
-from solver.arrays import Reals
+from solver.arrays import Integers, Reals
 from solver.constraints import Numbering, number_unknowns
 from solver.elements import tetrahedron_rule, triangle_rule
 from solver.mesh import Mesh
 from solver.models import Problem
-from solver.pressure import Skin, assemble_pressure
+from solver.moving_plane import MovingPlane
+from solver.pressure import Skin, assemble_pressure, assemble_volume
 from solver.sparsity import Pattern, chunks, upper_pattern
-
-
-@dataclass(frozen=True)
-class State:
-    """Displacement (n, 3), mm, and hydrostatic pressure (v,), MPa, positive in compression."""
-
-    displacement: Reals
-    hydrostatic_pressure: Reals
-
-    @staticmethod
-    def zero(problem: Problem) -> State:
-        """The undeformed, unstressed body."""
-        mesh = problem.mesh
-        return State(np.zeros(mesh.nodes.shape), np.zeros(len(mesh.vertices)))
+from solver.state import State
 
 
 @dataclass(frozen=True)
@@ -62,11 +51,18 @@ class Assembly:
     def __init__(self, problem: Problem) -> None:
         mesh = problem.mesh
         self.problem = problem
-        self.numbering = number_unknowns(mesh, problem.supports)
+        surface = problem.moving_plane
+        self.plane = None if surface is None else MovingPlane.of(mesh, surface)
+        self.numbering = number_unknowns(mesh, problem.supports, problem.moving_plane)
         check_orientation(mesh)
         dofs = self.numbering.of_tets(mesh)
-        self.pattern = upper_pattern(dofs, self.numbering.size)
-        self._places = kernels.Places(*chunks(mesh), dofs, self.pattern.entries(dofs))
+        at_plane = _touching(mesh.tets, self.plane)
+        plane_dofs = self._with_plane(dofs[at_plane])
+        self.pattern = upper_pattern(_joined(dofs, at_plane, plane_dofs), self.numbering.size)
+        order = chunks(mesh, np.flatnonzero(~at_plane))
+        self._places = kernels.Places(*order, dofs, self.pattern.entries(dofs))
+        self._at_plane = np.flatnonzero(at_plane).astype(np.int32)
+        self._plane_dofs, self._plane_entries = plane_dofs, self.pattern.entries(plane_dofs)
         self._solid = solid(problem)
         self._skin = self._pressurised_skin()
 
@@ -81,7 +77,18 @@ class Assembly:
             self._solid, self._places, displacement, state.hydrostatic_pressure,
             tangent, residual, values, jacobians,
         )  # fmt: skip
-        assemble_pressure(self._skin, displacement, pressure, tangent, force, values)
+        if self.plane is None:
+            assemble_pressure(self._skin, displacement, pressure, tangent, force, values)
+        else:
+            heights = self.plane.heights(state)
+            kernels.assemble_plane(
+                self._solid, self._at_plane, heights, state.plane[0], self._plane_dofs,
+                self._plane_entries, displacement, state.hydrostatic_pressure,
+                tangent, residual, values, jacobians,
+            )  # fmt: skip
+            assemble_volume(
+                self._skin, heights, state.plane[0], displacement, pressure, tangent, force, values
+            )
         residual += pressure * force
         return Equilibrium(residual, force, values, float(jacobians.min(initial=np.inf)))
 
@@ -91,10 +98,17 @@ class Assembly:
             kernels.total_energy(self._solid, state.displacement, state.hydrostatic_pressure)[0]
         )
 
+    def _with_plane(self, dofs: Integers) -> Integers:
+        """The dofs (e, m) of cells with those of the moving plane at the end, (e, m + 2)."""
+        plane = np.broadcast_to(self.numbering.plane, (len(dofs), 2))
+        return np.hstack([dofs, plane])
+
     def _pressurised_skin(self) -> Skin:
         rule = triangle_rule()
         triangles = self.problem.mesh.triangles(*self.problem.pressurised)
         dofs = self.numbering.of_triangles(triangles)
+        if self.plane is not None:
+            dofs = self._with_plane(dofs)
         return Skin(
             nodes=self.problem.mesh.nodes,
             triangles=triangles,
@@ -104,6 +118,20 @@ class Assembly:
             dofs=dofs,
             entries=self.pattern.entries(dofs),
         )
+
+
+def _touching(tets: Integers, plane: MovingPlane | None) -> NDArray[np.bool_]:
+    """Which elements have a node on the moving plane, (e,)."""
+    nodes = () if plane is None else plane.nodes
+    return np.asarray(np.isin(tets, nodes).any(axis=1))
+
+
+def _joined(dofs: Integers, at_plane: NDArray[np.bool_], plane_dofs: Integers) -> Integers:
+    """The dofs of all elements (e, 36): those ``at_plane`` also have the plane's."""
+    joined = np.full((len(dofs), plane_dofs.shape[1]), -1, np.int32)
+    joined[:, : dofs.shape[1]] = dofs
+    joined[at_plane] = plane_dofs
+    return joined
 
 
 def solid(problem: Problem) -> kernels.Solid:

@@ -29,11 +29,14 @@ class Numbering:
     """Numbers of the unknowns, -1 where prescribed.
 
     ``displacement`` (n, 3) and ``pressure`` (v,), interleaved node by node so that what is near
-    in the mesh is near in the matrix; ``size`` unknowns in all.
+    in the mesh is near in the matrix; ``plane`` (2,): tilt and shift of the moving plane, last;
+    ``size`` unknowns in all. Nodes on the moving plane have no x, and their z is the height in
+    the plane.
     """
 
     displacement: Integers
     pressure: Integers
+    plane: Integers
     size: int
 
     def of_tets(self, mesh: Mesh) -> Integers:
@@ -45,39 +48,64 @@ class Numbering:
         """Unknowns of each six-node triangle, (k, 18)."""
         return np.ascontiguousarray(self.displacement[triangles].reshape(-1, 18))
 
-    def expand(self, vector: Reals) -> tuple[Reals, Reals]:
-        """Displacements (n, 3) and pressures (v,) of a vector of unknowns; prescribed ones 0."""
+    def expand(self, vector: Reals) -> tuple[Reals, Reals, Reals]:
+        """Displacements (n, 3), pressures (v,), plane (2,) of unknowns; prescribed ones 0."""
         padded = np.append(vector, 0.0)
-        return padded[self.displacement], padded[self.pressure]
+        return padded[self.displacement], padded[self.pressure], padded[self.plane]
 
 
-def fixed_displacements(mesh: Mesh, supports: Supports) -> NDArray[np.bool_]:
-    """Which displacements are held at zero, (n, 3)."""
+def fixed_displacements(
+    mesh: Mesh, supports: Supports, moving_plane: str | None = None
+) -> NDArray[np.bool_]:
+    """Which displacements are held at zero, (n, 3); of the moving plane only the pin's z."""
     fixed = np.zeros(mesh.nodes.shape, bool)
     fixed[mesh.surface_nodes(*supports.clamped)] = True
     for surface, axis in supports.symmetry.items():
         fixed[mesh.surface_nodes(surface), axis] = True
+    if moving_plane is not None:
+        fixed[pin(mesh, moving_plane), 2] = True
     return fixed
 
 
-def number_unknowns(mesh: Mesh, supports: Supports) -> Numbering:
-    """Number the free displacements and the pressures of a mesh."""
+def pin(mesh: Mesh, moving_plane: str) -> int:
+    """The lowest node of a moving plane, (first of the lowest): the plane cannot slide past it.
+
+    Nothing else would hold a cell along z; as no load acts along the plane, this takes no force.
+    """
+    nodes = mesh.surface_nodes(moving_plane)
+    return int(nodes[mesh.nodes[nodes, 2].argmin()])
+
+
+def number_unknowns(mesh: Mesh, supports: Supports, moving_plane: str | None = None) -> Numbering:
+    """Number the free displacements, the pressures and the moving plane of a mesh."""
     free = np.zeros((len(mesh.nodes), 4), bool)
-    free[:, :3] = ~fixed_displacements(mesh, supports)
+    free[:, :3] = ~fixed_displacements(mesh, supports, moving_plane)
+    if moving_plane is not None:
+        free[mesh.surface_nodes(moving_plane), 0] = False
     free[np.setdiff1d(np.arange(len(mesh.nodes)), mesh.tets), :3] = False
     free[mesh.vertices, 3] = True
     numbers = np.full(free.shape, -1, np.int32)
     numbers[free] = np.arange(free.sum(), dtype=np.int32)
+    size = int(free.sum())
+    plane = np.array([-1, -1] if moving_plane is None else [size, size + 1], np.int32)
     return Numbering(
         displacement=np.ascontiguousarray(numbers[:, :3]),
         pressure=numbers[mesh.vertices, 3],
-        size=int(free.sum()),
+        plane=plane,
+        size=size + int((plane >= 0).sum()),
     )
 
 
-def check_supports(mesh: Mesh, supports: Supports) -> None:
-    """Raise ``ValueError`` if the supports leave a rigid motion of the body free."""
-    node, axis = np.nonzero(fixed_displacements(mesh, supports))
+def check_supports(mesh: Mesh, supports: Supports, moving_plane: str | None = None) -> None:
+    """Raise ``ValueError`` if a moving plane is not plane or a rigid motion of the body is free."""
+    if moving_plane is not None:
+        x = mesh.nodes[mesh.surface_nodes(moving_plane), 0]
+        if len(x) == 0 or np.ptp(x) > 1e-6 * mesh.size:
+            raise ValueError(
+                f"supports: the moving plane {moving_plane!r} must be a plane normal to x; "
+                f"its nodes spread over {np.ptp(x) if len(x) else 0:.3g} mm along x."
+            )
+    node, axis = np.nonzero(fixed_displacements(mesh, supports, moving_plane))
     positions = (mesh.nodes - mesh.nodes.mean(axis=0)) / mesh.size
     rotations = [np.cross(about, positions) for about in np.eye(3)]
     motions = np.stack([*np.broadcast_to(np.eye(3)[:, None], (3, *positions.shape)), *rotations])

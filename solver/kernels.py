@@ -496,16 +496,7 @@ def assemble_chunk(
         for v in range(4):
             q[v] = pressure[solid.tet_vertices[element, v]]
         jacobians[element] = element_response(solid, x, u, q, tangent, r, k)
-        for i in range(UNKNOWNS):
-            if places.dofs[element, i] >= 0:
-                residual[places.dofs[element, i]] += r[i]
-        if tangent:
-            entry = 0
-            for i in range(UNKNOWNS):
-                for j in range(i, UNKNOWNS):
-                    if places.entries[element, entry] >= 0:
-                        values[places.entries[element, entry]] += k[i, j]
-                    entry += 1
+        scatter(r, k, places.dofs[element], places.entries[element], 1.0, tangent, residual, values)
 
 
 @njit(cache=True, error_model="numpy", parallel=True)
@@ -536,6 +527,104 @@ def assemble(
                 assemble_chunk(
                     solid, places, c, displacement, pressure, tangent, residual, values, jacobians
                 )
+
+
+@njit(cache=True, error_model="numpy")
+def to_plane_unknowns(r: Reals, k: Reals, node: int, height: float, tilt: float) -> None:
+    """Express r (m + 2,) and the full k (m + 2, m + 2) in the unknowns of a moving plane.
+
+    A node on the plane is at x = L + shift + h sin(tilt), z = h cos(tilt). Of the cell's local
+    ``node`` the z unknown becomes that of its ``height`` h, the x unknown disappears, and the last
+    two unknowns are tilt and shift.
+    """
+    s, c = math.sin(tilt), math.cos(tilt)
+    x, z, turn, shift = 3 * node, 3 * node + 2, r.size - 2, r.size - 1
+    for i in range(r.size):
+        along, up = k[i, x], k[i, z]
+        k[i, z] = s * along + c * up
+        k[i, turn] += height * (c * along - s * up)
+        k[i, shift] += along
+    for j in range(r.size):
+        along, up = k[x, j], k[z, j]
+        k[z, j] = s * along + c * up
+        k[turn, j] += height * (c * along - s * up)
+        k[shift, j] += along
+    along, up = r[x], r[z]
+    k[z, turn] += c * along - s * up
+    k[turn, z] += c * along - s * up
+    k[turn, turn] -= height * (s * along + c * up)
+    r[z] = s * along + c * up
+    r[turn] += height * (c * along - s * up)
+    r[shift] += along
+
+
+@njit(cache=True, error_model="numpy")
+def assemble_plane(
+    solid: Solid,
+    elements: Integers,
+    heights: Reals,
+    tilt: float,
+    dofs: Integers,
+    entries: Integers,
+    displacement: Reals,
+    pressure: Reals,
+    tangent: bool,
+    residual: Reals,
+    values: Reals,
+    jacobians: Reals,
+) -> None:
+    """Add the ``elements`` (p,) that have nodes on the moving plane; see ``assemble``.
+
+    ``heights`` (n,): h of the nodes on the plane, NaN for all others. ``dofs`` (p, 36) and
+    ``entries`` (p, 666) end with the unknowns of the plane.
+    """
+    r = np.empty(UNKNOWNS + 2)
+    k = np.empty((UNKNOWNS + 2, UNKNOWNS + 2))
+    for row in range(elements.size):
+        element = elements[row]
+        nodes = solid.tets[element]
+        r[:] = 0.0
+        k[:, :] = 0.0
+        jacobians[element] = element_response(
+            solid, solid.nodes[nodes], displacement[nodes], pressure[solid.tet_vertices[element]],
+            tangent, r[:UNKNOWNS], k[:UNKNOWNS, :UNKNOWNS],
+        )  # fmt: skip
+        mirror_upper(k)
+        for a in range(10):
+            if not np.isnan(heights[nodes[a]]):
+                to_plane_unknowns(r, k, a, heights[nodes[a]], tilt)
+        scatter(r, k, dofs[row], entries[row], 1.0, tangent, residual, values)
+
+
+@njit(cache=True, error_model="numpy")
+def mirror_upper(k: Reals) -> None:
+    """Copy the upper triangle of a square matrix to its lower one."""
+    for i in range(k.shape[0]):
+        for j in range(i):
+            k[i, j] = k[j, i]
+
+
+@njit(cache=True, error_model="numpy")
+def scatter(
+    r: Reals,
+    k: Reals,
+    dofs: Integers,
+    entries: Integers,
+    factor: float,
+    tangent: bool,
+    residual: Reals,
+    values: Reals,
+) -> None:
+    """Add r (m,) and ``factor`` times the upper triangle of k (m, m) in their places."""
+    entry = 0
+    for i in range(r.size):
+        if dofs[i] >= 0:
+            residual[dofs[i]] += r[i]
+        if tangent:
+            for j in range(i, r.size):
+                if entries[entry] >= 0:
+                    values[entries[entry]] += factor * k[i, j]
+                entry += 1
 
 
 @njit(cache=True, error_model="numpy")

@@ -24,17 +24,27 @@ class MeshingError(RuntimeError):
 
 
 @dataclass(frozen=True)
+class SizeField:
+    """Edge lengths ``sizes`` (n,) in mm wanted at the nodes of a ``mesh`` of the same body."""
+
+    mesh: Mesh
+    sizes: NDArray[np.float64]
+
+
+@dataclass(frozen=True)
 class MeshOptions:
     """Sizes of a mesh.
 
     - ``size``: largest edge, mm.
     - ``elements_per_circle``: edges on a full circle of every curved face; 0 ignores curvature.
-    - ``smallest_size``: smallest edge asked of curved faces, mm.
+    - ``smallest_size``: smallest edge asked for, mm.
+    - ``field``: edges wanted here and there, from ``solver.refinement``; the least size counts.
     """
 
     size: float = 2.0
     elements_per_circle: float = 4.0
     smallest_size: float = 0.1
+    field: SizeField | None = None
 
     def __post_init__(self) -> None:
         if not 0 < self.smallest_size <= self.size < np.inf:
@@ -104,11 +114,26 @@ def _generate(gmsh: Any, options: MeshOptions) -> None:
     }
     for name, value in settings.items():
         gmsh.option.setNumber(name, value)
+    if options.field is not None:
+        _use_field(gmsh, options.field)
     try:
         gmsh.model.mesh.generate(3)
         gmsh.model.mesh.setOrder(2)
     except Exception as error:  # Gmsh raises bare Exception
         raise MeshingError(f"Gmsh could not mesh the solid: {error}") from error
+
+
+def _use_field(gmsh: Any, field: SizeField) -> None:
+    """Make Gmsh interpolate ``field`` linearly in its mesh's tetrahedra."""
+    corners = field.mesh.tets[:, :4]
+    points = field.mesh.nodes[corners]
+    table = np.hstack([*np.moveaxis(points, 2, 0), field.sizes[corners]])
+    view = gmsh.view.add("sizes")
+    gmsh.view.addListData(view, "SS", len(table), table.ravel())
+    number = gmsh.model.mesh.field.add("PostView")
+    gmsh.model.mesh.field.setNumber(number, "ViewTag", view)
+    gmsh.model.mesh.field.setAsBackgroundMesh(number)
+    gmsh.option.setNumber("Mesh.MeshSizeExtendFromBoundary", 0)
 
 
 def _tetrahedra(gmsh: Any) -> tuple[NDArray[np.int64], NDArray[np.int32]]:

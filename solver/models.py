@@ -57,7 +57,13 @@ class Problem:
     """A hyperelastic solid under a follower pressure on the surfaces ``pressurised``.
 
     With an ``axis`` the nonlinear solver moves the body by finite rotations (``solver.motion``).
-    Raises ``ValueError`` when a surface is unknown or the supports leave a rigid motion free.
+    ``moving_plane`` names a plane surface normal to x that stays plane, free to turn about y and
+    to shift along x: the section between two cells of a uniform chain, which goes on behind it.
+    It carries what the pressure does to the cavity beyond (``solver.moving_plane``).
+    Stress nearer than ``sharp_edge_radius`` (mm) to an edge where the ideal body's has no finite
+    value is left out of peaks (``solver.sharp_edges``).
+    Raises ``ValueError`` when a surface is unknown, the moving one is not plane, or the supports
+    leave a rigid motion free.
     """
 
     mesh: Mesh
@@ -65,10 +71,12 @@ class Problem:
     supports: Supports
     pressurised: tuple[str, ...]
     axis: SlenderAxis | None = None
+    moving_plane: str | None = None
+    sharp_edge_radius: float = 0.0
 
     def __post_init__(self) -> None:
         from solver.constraints import check_supports
 
         object.__setattr__(self, "pressurised", tuple(self.pressurised))
         self.mesh.triangles(*self.pressurised)
-        check_supports(self.mesh, self.supports)
+        check_supports(self.mesh, self.supports, self.moving_plane)

@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Literal
 
 import numpy as np
 
 from solver.arrays import Reals
-from solver.assembly import Assembly, State
+from solver.assembly import Assembly
+from solver.constraints import fixed_displacements
 from solver.linear import LinearSolver, SingularMatrix, linear_solver
 from solver.models import Problem
 from solver.motion import motion_along, rotation
+from solver.pressure import enclosed_volume
 from solver.results import PathPoint, Solution
+from solver.sharp_edges import trusted_nodes
+from solver.state import State
 from solver.stress import deviatoric_at_nodes, von_mises
 
 
@@ -86,21 +90,25 @@ def solve(
     options: SolverOptions | None = None,
     listener: Listener | None = None,
     initial: tuple[Reals, Reals] | None = None,
+    stops: Sequence[float] = (),
 ) -> Solution:
     """Equilibrium of ``problem`` under ``pressure`` (MPa), walked from zero load.
 
     With ``initial`` = (displacement (n, 3), hydrostatic pressure (v,)), for instance from
     ``solver.interpolation``, Newton starts there at full load; should that fail, the load is walked
-    as usual. A load that cannot be reached gives the last good state with ``converged`` False
+    as usual. The path has a point at each of the pressures ``stops`` (MPa) between zero and
+    ``pressure``: passed on the way up, or visited on the way back down after a start at full load.
+    A load that cannot be reached gives the last good state with ``converged`` False
     and a ``message``, never a diverged state. Raises ``ValueError`` for bad input.
     """
     if not np.isfinite(pressure):
         raise ValueError(f"pressure must be a finite number of MPa, got {pressure}.")
     start = time.perf_counter()
+    loads = _stops(stops, float(pressure))
     newton = Newton(problem, float(pressure), options or SolverOptions(), listener)
-    walk = None if initial is None else _jump(newton, _start(newton, *initial))
+    walk = None if initial is None else _jump(newton, _start(newton, *initial), loads)
     if walk is None:
-        walk = _walk(newton)
+        walk = _walk(newton, loads)
     return _solution(newton, walk, time.perf_counter() - start)
 
 
@@ -147,9 +155,11 @@ class Newton:
 
     def __post_init__(self) -> None:
         self.assembly = Assembly(self.problem)
-        self.linear: LinearSolver = linear_solver(self.options.linear_solver)
-        self.linear.analyze(self.assembly.pattern)
+        self.matrix: LinearSolver = linear_solver(self.options.linear_solver)
+        self.matrix.analyze(self.assembly.pattern)
         self.move = motion_along(self.problem.mesh, self.problem.axis)
+        self.trusted = trusted_nodes(self.problem)
+        self.held = fixed_displacements(self.problem.mesh, self.problem.supports)
 
     def correct(self, guess: State, load: float, tolerance: float) -> Attempt:
         """Newton iterations at a fixed load from ``guess``, until a correction is small.
@@ -168,7 +178,7 @@ class Newton:
             except SingularMatrix as error:
                 return Attempt(guess, iteration, f"the tangent is singular ({error})")
             increment = self.solve(-equilibrium.residual)
-            correction = float(np.abs(increment.displacement).max())
+            correction = float(np.abs(self.linear(state, increment)).max())
             if not correction < DIVERGED * size:
                 return Attempt(guess, iteration, "the Newton corrections grew without bound")
             state = self.advance(state, increment)
@@ -193,30 +203,44 @@ class Newton:
 
     def factorize(self, tangent: Reals) -> None:
         """Factorize a tangent and count it."""
-        self.linear.factorize(tangent)
+        self.matrix.factorize(tangent)
         self.effort.factorizations += 1
 
     def solve(self, right_hand_side: Reals) -> State:
         """Solve with the factorization at hand."""
-        return State(*self.assembly.numbering.expand(self.linear.solve(right_hand_side)))
+        return State(*self.assembly.numbering.expand(self.matrix.solve(right_hand_side)))
+
+    def linear(self, state: State, increment: State) -> Reals:
+        """Displacement (n, 3) of an increment to first order, mm."""
+        plane = self.assembly.plane
+        return increment.displacement if plane is None else plane.linear(state, increment)
 
     def advance(self, state: State, increment: State, fraction: float = 1.0) -> State:
         """The state after a fraction of an increment, applied as a finite motion."""
-        return self.supported(
-            self.move(state.displacement, fraction * increment.displacement),
-            state.hydrostatic_pressure + fraction * increment.hydrostatic_pressure,
+        step = increment.scaled(fraction)
+        moved = self.supported(
+            self.move(state.displacement, self.linear(state, step)),
+            state.hydrostatic_pressure + step.hydrostatic_pressure,
         )
+        plane = self.assembly.plane
+        return moved if plane is None else plane.finite(state, step, moved)
 
     def supported(self, displacement: Reals, pressure: Reals) -> State:
         """A state with the prescribed displacements put back to zero."""
-        free = self.assembly.numbering.displacement >= 0
-        return State(np.where(free, displacement, 0.0), pressure)
+        return State(np.where(self.held, 0.0, displacement), pressure)
+
+    def turned(self, state: State) -> float:
+        """Rotation of the tip, or of the moving plane, degrees."""
+        if self.assembly.plane is not None:
+            return float(np.degrees(state.plane[0]))
+        return rotation(self.problem.mesh, state.displacement)
 
     def point(self, state: State, load: float, iterations: int) -> PathPoint:
         """Describe an equilibrium."""
         stress = von_mises(deviatoric_at_nodes(self.problem, state.displacement))
-        turned = rotation(self.problem.mesh, state.displacement)
-        return PathPoint(load * self.pressure, turned, iterations, float(stress.max(initial=0.0)))
+        highest = float(stress[self.trusted].max(initial=0.0))
+        volume = enclosed_volume(self.problem.mesh, state.displacement, self.problem.pressurised)
+        return PathPoint(load * self.pressure, self.turned(state), iterations, highest, volume)
 
     def notify(
         self,
@@ -228,49 +252,92 @@ class Newton:
     ) -> None:
         """Tell the listener."""
         if self.listener is not None:
-            turned = rotation(self.problem.mesh, state.displacement)
-            self.listener(Event(kind, load, turned, iteration, correction))
+            self.listener(Event(kind, load, self.turned(state), iteration, correction))
 
 
-def _jump(newton: Newton, initial: State) -> Walk | None:
-    """Newton at full load from a given state; None if that fails."""
+def _stops(pressures: Sequence[float], pressure: float) -> tuple[float, ...]:
+    """Pressures to visit as ascending fractions of the asked one, strictly within (0, 1)."""
+    loads = sorted({float(stop) / pressure for stop in pressures}) if pressure else []
+    if not all(0 < load <= 1 + 1e-12 for load in loads):
+        raise ValueError(
+            f"stops must lie between 0 and the pressure of {pressure:g} MPa, got {list(pressures)}."
+        )
+    return tuple(load for load in loads if load < 1 - 1e-12)
+
+
+def _jump(newton: Newton, initial: State, stops: tuple[float, ...]) -> Walk | None:
+    """Newton at full load from a given state, then back through ``stops``; None if that fails."""
     attempt = newton.correct(initial, 1.0, newton.options.tolerance)
     if attempt.failure:
         newton.effort.refused_steps += 1
         newton.notify("refused", 1.0, initial, attempt.iterations, np.inf)
         return None
     newton.effort.load_steps += 1
-    origin = newton.point(State.zero(newton.problem), 0.0, 0)
-    return Walk(attempt.state, (origin, newton.point(attempt.state, 1.0, attempt.iterations)))
+    points: tuple[PathPoint, ...] = (newton.point(attempt.state, 1.0, attempt.iterations),)
+    leg = Leg(attempt.state, 1.0, 1.0)
+    for stop in reversed(stops):
+        leg = _walk_to(newton, stop, leg)
+        if leg.failure:
+            return None
+        points = (*reversed(leg.points), *points)
+    return Walk(attempt.state, (newton.point(State.zero(newton.problem), 0.0, 0), *points))
 
 
-def _walk(newton: Newton) -> Walk:
-    """Adaptive load steps from zero: predict along the tangent, correct, grow or cut the step."""
+def _walk(newton: Newton, stops: tuple[float, ...]) -> Walk:
+    """Up from zero load, through ``stops``."""
+    zero = State.zero(newton.problem)
+    newton.factorize(newton.assembly.evaluate(zero, 0.0).tangent)
+    points: tuple[PathPoint, ...] = (newton.point(zero, 0.0, 0),)
+    leg = Leg(zero, 0.0, newton.options.first_step)
+    for stop in (*stops, 1.0):
+        leg = _walk_to(newton, stop, leg)
+        points += leg.points
+        if leg.failure:
+            break
+    return Walk(leg.state, points, leg.failure)
+
+
+@dataclass(frozen=True)
+class Leg:
+    """Part of a walk: where it ended, the size of the next step, points on it, why it stopped."""
+
+    state: State
+    load: float
+    step: float
+    points: tuple[PathPoint, ...] = ()
+    failure: str = ""
+
+
+def _walk_to(newton: Newton, end: float, leg: Leg) -> Leg:
+    """Adaptive load steps, up or down: predict along the tangent, correct, grow or cut the step.
+
+    Needs the factorization at the state it starts from.
+    """
     options = newton.options
-    state, load, step = State.zero(newton.problem), 0.0, options.first_step
-    path: tuple[PathPoint, ...] = (newton.point(state, load, 0),)
-    newton.factorize(newton.assembly.evaluate(state, 0.0).tangent)
+    state, load, step = leg.state, leg.load, leg.step
+    points: tuple[PathPoint, ...] = ()
     direction = newton.direction(state, load)
-    while load < 1.0:
-        target = min(load + step, 1.0)
+    while load != end:
+        reached = abs(end - load) <= step * (1 + 1e-9)
+        target = end if reached else load + np.copysign(step, end - load)
         guess = newton.advance(state, direction, target - load)
-        tolerance = options.tolerance if target == 1.0 else options.loose_tolerance
+        tolerance = options.tolerance if reached else options.loose_tolerance
         attempt = newton.correct(guess, target, tolerance)
         if attempt.failure:
             newton.effort.refused_steps += 1
             newton.notify("refused", target, state, attempt.iterations, np.inf)
-            step = options.cut * (target - load)
+            step = options.cut * abs(target - load)
             if step < options.smallest_step:
-                return Walk(state, path, attempt.failure)
+                return Leg(state, load, step, points, attempt.failure)
             continue
+        step = max(step, options.growth * abs(target - load))
         state, load = attempt.state, target
-        step *= options.growth
-        path += (newton.point(state, load, attempt.iterations),)
+        points += (newton.point(state, load, attempt.iterations),)
         newton.effort.load_steps += 1
         newton.notify("step", load, state, attempt.iterations, 0.0)
-        if load < 1.0:
+        if load != end:
             direction = newton.direction(state, load)
-    return Walk(state, path)
+    return Leg(state, load, step, points)
 
 
 def _start(newton: Newton, displacement: Reals, pressure: Reals) -> State:
@@ -284,7 +351,9 @@ def _start(newton: Newton, displacement: Reals, pressure: Reals) -> State:
             raise ValueError(
                 f"initial: {name} must have the shape {wanted.shape}, got {np.shape(given)}."
             )
-    return newton.supported(displacement, pressure)
+    state = newton.supported(displacement, pressure)
+    plane = newton.assembly.plane
+    return state if plane is None else plane.fitted(state)
 
 
 def _solution(newton: Newton, walk: Walk, seconds: float) -> Solution:
@@ -305,7 +374,8 @@ def _solution(newton: Newton, walk: Walk, seconds: float) -> Solution:
         factorizations=effort.factorizations,
         load_steps=effort.load_steps,
         refused_steps=effort.refused_steps,
-        linear_solver=newton.linear.name,
-        negative_pivots=newton.linear.negative_pivots,
+        linear_solver=newton.matrix.name,
+        negative_pivots=newton.matrix.negative_pivots,
         seconds=seconds,
+        plane=(float(walk.state.plane[0]), float(walk.state.plane[1])),
     )

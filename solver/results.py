@@ -5,11 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
+
 from solver.arrays import Reals
-from solver.assembly import State
 from solver.mesh import Mesh
 from solver.models import Problem
 from solver.pressure import enclosed_volume
+from solver.state import State
 from solver.stress import nodal_pressure, nodal_von_mises
 
 
@@ -17,15 +19,17 @@ from solver.stress import nodal_pressure, nodal_von_mises
 class PathPoint:
     """One equilibrium on the load path.
 
-    ``pressure`` (MPa), ``rotation`` of the surface ``tip`` about y (degrees, positive towards
-    -z, past 360; NaN without that surface), Newton ``iterations`` spent on the step, largest
-    nodal von Mises stress (MPa).
+    ``pressure`` (MPa), ``rotation`` of the moving plane or else of the surface ``tip`` about y
+    (degrees, positive towards -z, past 360; NaN without either), Newton ``iterations`` spent on
+    the step, largest nodal von Mises stress (MPa), ``volume`` inside the pressurised surfaces
+    (mm^3, see ``solver.pressure.enclosed_volume``).
     """
 
     pressure: float
     rotation: float
     iterations: int
     max_von_mises: float
+    volume: float
 
 
 @dataclass(frozen=True)
@@ -35,6 +39,7 @@ class Solution:
     ``pressure`` is the applied pressure it belongs to (MPa), ``displacement`` (n, 3) in mm,
     ``hydrostatic_pressure`` (v,) in MPa at ``mesh.vertices``, positive in compression.
     ``message`` says in one sentence how far the load came and why it stopped there.
+    ``plane``: tilt (rad) and shift (mm) of the moving plane, zeros without one.
     ``refused_steps`` load steps were cut back. ``negative_pivots`` of the last tangent that was
     factorized equals v where the state is stable; None if the linear solver cannot tell.
     """
@@ -53,15 +58,16 @@ class Solution:
     linear_solver: str
     negative_pivots: int | None
     seconds: float
+    plane: tuple[float, float] = (0.0, 0.0)
 
     @property
     def state(self) -> State:
-        """Displacement and hydrostatic pressure together."""
-        return State(self.displacement, self.hydrostatic_pressure)
+        """Displacement, hydrostatic pressure and moving plane together."""
+        return State(self.displacement, self.hydrostatic_pressure, np.array(self.plane))
 
     @property
     def rotation(self) -> float:
-        """Rotation of the surface ``tip`` at the end of the path, degrees."""
+        """Rotation of moving plane or ``tip`` at the end of the path, degrees."""
         return self.path[-1].rotation
 
 

@@ -55,17 +55,21 @@ def incidence(table: Integers, size: int) -> tuple[Integers, Integers]:
     return pointer.astype(np.int32), rows[np.argsort(flat, kind="stable")]
 
 
-def chunks(mesh: Mesh) -> tuple[Integers, Integers, Integers]:
-    """Elements in chunks, the chunks in colours: chunks of one colour share no node.
+def chunks(
+    mesh: Mesh, elements: NDArray[np.int64] | None = None
+) -> tuple[Integers, Integers, Integers]:
+    """All or some elements in chunks, the chunks in colours: chunks of one colour share no node.
 
     Chunks are slabs across the longest side of the body, so that few colours suffice. Returns the
     elements chunk by chunk (e,), where each chunk starts (c + 1,), and at which chunk each colour
     starts (k + 1,).
     """
-    centres = mesh.nodes[mesh.tets].mean(axis=1)
+    elements = np.arange(len(mesh.tets)) if elements is None else elements
+    centres = mesh.nodes[mesh.tets[elements]].mean(axis=1)
     along = centres[:, np.ptp(centres, axis=0).argmax()]
     count = int(np.clip(len(centres) // ELEMENTS_PER_CHUNK, 1, MOST_CHUNKS))
-    slabs = np.array_split(np.argsort(along, kind="stable").astype(np.int32), count)
+    order = elements[np.argsort(along, kind="stable")].astype(np.int32)
+    slabs = np.array_split(order, count)
     touched = np.zeros((count, len(mesh.nodes)), np.float32)
     for slab, nodes in zip(slabs, touched, strict=True):
         nodes[mesh.tets[slab]] = 1.0

@@ -9,9 +9,11 @@ import numpy as np
 
 from solver import kernels
 from solver.arrays import Integers, Reals
-from solver.assembly import State, solid
+from solver.assembly import solid
 from solver.elements import TETRAHEDRON_EDGES, tetrahedron_rule
 from solver.models import Problem
+from solver.sharp_edges import trusted_nodes
+from solver.state import State
 
 if TYPE_CHECKING:
     from solver.results import Solution
@@ -45,16 +47,45 @@ def nodal_cauchy(solution: Solution) -> Reals:
 
 
 def peak_von_mises(solution: Solution) -> Peak:
-    """The largest nodal von Mises stress and where it is in the undeformed body."""
+    """The largest nodal von Mises stress and where it is in the undeformed body.
+
+    Nodes too near to a sharp edge (``solver.sharp_edges``) do not count.
+    """
     mesh = solution.problem.mesh
-    in_elements, volumes = _in_elements(solution.problem, solution.displacement)
-    at_nodes = _average(mesh.tets, in_elements, volumes, len(mesh.nodes))
-    values = von_mises(at_nodes)
+    stress = element_stress(solution)
+    at_nodes = _average(mesh.tets, stress.raw, stress.volumes, len(mesh.nodes))
+    values = np.where(trusted_nodes(solution.problem), von_mises(at_nodes), 0.0)
     node = int(values.argmax())
-    differences = von_mises(in_elements[mesh.tets == node] - at_nodes[node])
+    differences = von_mises(stress.jumps[mesh.tets == node])
     scatter = float(np.sqrt((differences**2).mean()))
     x, y, z = (float(c) for c in mesh.nodes[node])
     return Peak(float(values[node]), node, (x, y, z), scatter)
+
+
+@dataclass(frozen=True)
+class ElementStress:
+    """Deviatoric Cauchy stress at the ten nodes of each element, MPa.
+
+    ``raw`` (e, 10, 6) as the element has it, ``smoothed`` (e, 10, 6) as the nodes' averages have
+    it; ``volumes`` (e,) of the elements, mm^3.
+    """
+
+    raw: Reals
+    smoothed: Reals
+    volumes: Reals
+
+    @property
+    def jumps(self) -> Reals:
+        """How far each element is from the average, (e, 10, 6)."""
+        return self.raw - self.smoothed
+
+
+def element_stress(solution: Solution) -> ElementStress:
+    """Deviatoric stress in the elements of a solution, and smoothed over them."""
+    mesh = solution.problem.mesh
+    raw, volumes = _in_elements(solution.problem, solution.displacement)
+    smoothed = _average(mesh.tets, raw, volumes, len(mesh.nodes))[mesh.tets]
+    return ElementStress(raw, smoothed, volumes)
 
 
 def von_mises(stress: Reals) -> Reals:

@@ -1,0 +1,46 @@
+"""Pressures from the command line: one number, or START:STOP:STEP."""
+
+from __future__ import annotations
+
+import math
+
+from bellows_design.errors import DesignError, quoted
+
+MOST = 200
+"""So many points describe any curve; more are a mistaken unit."""
+
+
+def parse_pressures(text: str) -> tuple[float, ...]:
+    """Ascending pressures, MPa: ``0.1`` or ``0.02:0.1:0.02``, both ends included.
+
+    Raises ``DesignError`` unless the text is one of the two, with numbers above zero.
+    """
+    parts = [_number(part, text) for part in text.split(":")]
+    if len(parts) == 1:
+        return (parts[0],)
+    if len(parts) != 3:
+        raise DesignError(f"--pressure {quoted(text)} must be a number or START:STOP:STEP, in MPa.")
+    start, stop, step = parts
+    return _range(start, stop, step, text)
+
+
+def _range(start: float, stop: float, step: float, text: str) -> tuple[float, ...]:
+    if not (0 < start <= stop and step > 0):
+        raise DesignError(
+            f"--pressure {quoted(text)} must rise from above 0 MPa: START <= STOP and STEP > 0."
+        )
+    count = math.floor((stop - start) / step + 1e-9)
+    if count >= MOST:
+        raise DesignError(f"--pressure {quoted(text)} has {count + 1} values; at most {MOST}.")
+    inner = [start + index * step for index in range(count + 1)]
+    return (*(p for p in inner if p < stop * (1 - 1e-9)), stop)
+
+
+def _number(part: str, text: str) -> float:
+    try:
+        value = float(part)
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        raise DesignError(f"--pressure {quoted(text)}: {quoted(part)} is no number of MPa.")
+    return value
