@@ -23,7 +23,7 @@ from bellows_design.progress import Progress, Silence
 if TYPE_CHECKING:
     from bellows_design.contact import Contact
     from bellows_design.solids import NamedSolid
-    from solver import Event, Mesh, PathPoint, Peak, Solution
+    from solver import Event, PathPoint, Peak, Problem, Solution, SolverOptions
     from solver.arrays import Reals
 
 SILENCE = Silence()
@@ -129,20 +129,24 @@ class Evaluation:
         angle, volume = point.rotation, self.model.share * point.volume
         if self.model is UNIT_CELL:
             count = self.design.bellows.bubble_count
-            turned, more = self._added_by_ends(point.pressure)
+            turned, more = self._added_by_ends(point)
             angle, volume = count * 2 * angle + turned, count * volume + more
         return Reading(point.pressure, angle, point.max_von_mises, volume)
 
-    def _added_by_ends(self, pressure: float) -> tuple[float, float]:
+    def _added_by_ends(self, point: PathPoint) -> tuple[float, float]:
         """Rotation (°) and volume (mm³) by which a short actuator differs from its one bubble.
 
-        Both come from meshes of the same size, so that the mesh's own error drops out.
+        Both come from meshes of the same size, so that the mesh's own error drops out. Exact at
+        the pressures asked for; between them in proportion to the cell's rotation.
         """
         if self.ends is None:
             return 0.0, 0.0
-        short, cell = _at(self.ends, pressure), _at(self.solutions[0], pressure)
+        short, cell = _at(self.ends, point.pressure), _at(self.solutions[0], point.pressure)
+        if not np.isclose(short.pressure, point.pressure):
+            short, cell = self.ends.path[-1], self.solutions[0].path[-1]
+        part = point.rotation / cell.rotation if short.pressure != point.pressure else 1.0
         return (
-            short.rotation - 2 * cell.rotation,
+            part * (short.rotation - 2 * cell.rotation),
             HALF.share * short.volume - UNIT_CELL.share * cell.volume,
         )
 
@@ -180,7 +184,7 @@ class Evaluation:
         stress_error = max(abs(before.value - peak.value), peak.scatter / 2)
         angle = self.bending_angle_deg
         change = angle - self._reading(coarse.path[-1]).bending_angle_deg
-        ends, _ = self._added_by_ends(fine.pressure)
+        ends, _ = self._added_by_ends(fine.path[-1])
         angle_error = max(ANGLE_SAFETY * abs(change), LEAST_ANGLE_ERROR * abs(angle))
         return ErrorEstimate(
             _percent(angle_error + ENDS_ERROR * abs(ends), angle),
@@ -267,7 +271,7 @@ def evaluate(
 def refined(evaluation: Evaluation, progress: Progress = SILENCE) -> Evaluation:
     """The same evaluation on one finer mesh, started from the finest solution at hand."""
     from bellows_design.analysis import finer_mesh, first_mesh
-    from solver import transfer
+    from solver import SolverOptions, transfer
 
     design, model, level = evaluation.design, evaluation.model, len(evaluation.solutions)
     progress.stage(f"mesh {level + 1}")
@@ -279,7 +283,11 @@ def refined(evaluation: Evaluation, progress: Progress = SILENCE) -> Evaluation:
     meshed = time.perf_counter()
     progress.stage(f"solve {level + 1}, {len(mesh.tets)} tetrahedra")
     initial = transfer(evaluation.finest, mesh) if level else None
-    solution = _solved(evaluation, model, mesh, progress, initial, rough=level + 1 < model.levels)
+    only_a_step = level + 1 < model.levels
+    options = SolverOptions(tolerance=ROUGH) if only_a_step else None
+    stops = () if level and only_a_step else evaluation.pressures
+    problem = model.problem(design, mesh)
+    solution = _solved(design, problem, progress, options, initial, stops)
     return _spent(
         replace(evaluation, solutions=(*evaluation.solutions, solution)),
         0.0,
@@ -291,6 +299,7 @@ def refined(evaluation: Evaluation, progress: Progress = SILENCE) -> Evaluation:
 def _with_ends(evaluation: Evaluation, progress: Progress) -> Evaluation:
     """With the solution of a short actuator, on the mesh size of the coarsest cell."""
     from bellows_design.analysis import first_mesh
+    from solver import SolverOptions
 
     progress.stage("ends: an actuator of one bubble")
     began = time.perf_counter()
@@ -299,35 +308,28 @@ def _with_ends(evaluation: Evaluation, progress: Progress) -> Evaluation:
     built = time.perf_counter()
     mesh = first_mesh(solid, short)
     meshed = time.perf_counter()
-    stops = tuple(point.pressure for point in evaluation.solutions[0].path[1:-1])
-    passing = replace(evaluation, design=short, pressures=stops)
-    ends = _solved(passing, HALF, mesh, progress, None, rough=True)
+    options = SolverOptions(tolerance=ROUGH, first_step=0.35)  # it bends little: long steps do
+    problem = HALF.problem(short, mesh)
+    ends = _solved(short, problem, progress, options, stops=evaluation.pressures)
     return _spent(replace(evaluation, ends=ends), built - began, meshed - built, meshed)
 
 
 def _solved(
-    evaluation: Evaluation,
-    model: Model,
-    mesh: Mesh,
+    design: Design,
+    problem: Problem,
     progress: Progress,
-    initial: tuple[Reals, Reals] | None,
-    rough: bool,
+    options: SolverOptions | None,
+    initial: tuple[Reals, Reals] | None = None,
+    stops: Sequence[float] = (),
 ) -> Solution:
-    """Solve on a mesh; a rough solution is only a step to the next."""
-    from solver import SolverOptions, solve
+    """Solve at the design's pressure and tell how far it is."""
+    from solver import solve
 
     def report(event: Event) -> None:
         progress.load(event.load, event.rotation)
 
-    design = evaluation.design
-    return solve(
-        model.problem(design, mesh),
-        design.load.pressure,
-        SolverOptions(tolerance=ROUGH) if rough else None,
-        listener=report,
-        initial=initial,
-        stops=() if rough and initial is not None else evaluation.pressures,
-    )
+    pressure = design.load.pressure
+    return solve(problem, pressure, options, listener=report, initial=initial, stops=stops)
 
 
 def _spent(evaluation: Evaluation, geometry: float, mesh: float, since: float) -> Evaluation:

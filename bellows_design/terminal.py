@@ -28,8 +28,8 @@ TRACEBACK = "BELLOWS_TRACEBACK"
 _OURS = ("bellows_design", "solver", "printers")
 
 OBJECTS_BETWEEN_COLLECTIONS = 50_000
-"""Python's 700 make it search the libraries' classes for garbage a thousand times as they load:
-half a second of an evaluation, and all of them stay."""
+"""At Python's own 700 the collector runs a thousand times while an evaluation loads its libraries,
+whose objects all stay."""
 
 
 @dataclass(frozen=True)

@@ -13,6 +13,10 @@ from solver.results import Solution
 
 CANDIDATES = 24
 
+OUTSIDE = 0.02
+"""A point this far outside in barycentric coordinates is in: two meshes of one curved body differ
+by more, and the extrapolation is as good as the interpolation."""
+
 
 def transfer(solution: Solution, finer_mesh: Mesh) -> tuple[Reals, Reals]:
     """Displacement (n, 3) and hydrostatic pressure (v,) of a solution on another mesh.
@@ -63,7 +67,7 @@ def _locate(
                 best = inside
                 element[p] = candidate
                 barycentric[p] = local
-            if best >= 0.0:
+            if best >= -OUTSIDE:
                 break
 
 
@@ -74,6 +78,7 @@ def _inverse_map(x: Reals, point: Reals) -> Reals:
     edge_b = np.array([1, 2, 2, 3, 3, 3])
     local = np.full(4, 0.25)
     slopes = np.empty((4, 3))  # dX / dL_k
+    step = np.empty(3)
     for _ in range(20):
         position = np.zeros(3)
         slopes[:] = 0.0
@@ -85,9 +90,32 @@ def _inverse_map(x: Reals, point: Reals) -> Reals:
             position += 4.0 * local[a] * local[b] * x[4 + e]
             slopes[a] += 4.0 * local[b] * x[4 + e]
             slopes[b] += 4.0 * local[a] * x[4 + e]
-        step = np.linalg.solve((slopes[1:] - slopes[0]).T, point - position)
+        _solve3(slopes, point - position, step)
         local[1:] += step
         local[0] -= step.sum()
-        if np.abs(step).max() < 1e-12:
+        largest = max(abs(step[0]), abs(step[1]), abs(step[2]))
+        if largest < 1e-10:
             return local
+        if not largest < 1e3:
+            break
     return np.full(4, -1e3)  # far outside of a curved element: the map has no inverse there
+
+
+@njit(cache=True, error_model="numpy")
+def _solve3(slopes: Reals, gap: Reals, step: Reals) -> None:
+    """Changes of L1, L2, L3 (3,) that move a point by ``gap`` (3,); ``slopes`` (4, 3) = dX / dL."""
+    a, b, c = slopes[1] - slopes[0], slopes[2] - slopes[0], slopes[3] - slopes[0]
+    determinant = _triple(a, b, c)
+    step[0] = _triple(gap, b, c) / determinant
+    step[1] = _triple(a, gap, c) / determinant
+    step[2] = _triple(a, b, gap) / determinant
+
+
+@njit(cache=True, error_model="numpy")
+def _triple(a: Reals, b: Reals, c: Reals) -> float:
+    """a . (b x c)."""
+    return (
+        a[0] * (b[1] * c[2] - b[2] * c[1])
+        + a[1] * (b[2] * c[0] - b[0] * c[2])
+        + a[2] * (b[0] * c[1] - b[1] * c[0])
+    )

@@ -10,9 +10,9 @@ from typing import Literal
 import numpy as np
 
 from solver.arrays import Reals
-from solver.assembly import Assembly
+from solver.assembly import Assembly, Equilibrium
 from solver.constraints import fixed_displacements
-from solver.linear import LinearSolver, SingularMatrix, linear_solver
+from solver.linear import LinearSolver, SingularMatrix, linear_solver, quick_solver
 from solver.models import Problem
 from solver.motion import motion_along, rotation
 from solver.pressure import enclosed_volume
@@ -80,6 +80,9 @@ class Event:
 
 Listener = Callable[[Event], None]
 
+REUSED = 0.25
+"""A factorization is used again after a correction so much smaller than the one before."""
+
 DIVERGED = 1.0
 """A correction of so many body diagonals corrects nothing."""
 
@@ -114,11 +117,15 @@ def solve(
 
 @dataclass(frozen=True)
 class Attempt:
-    """Newton's outcome at one load: a state in equilibrium, or why there is none."""
+    """Newton's outcome at one load: a state in equilibrium, or why there is none.
+
+    ``force``: the residual's derivative with respect to the pressure there, mm^2.
+    """
 
     state: State
     iterations: int
     failure: str = ""
+    force: Reals = field(default_factory=lambda: np.zeros(0))
 
 
 @dataclass(frozen=True)
@@ -155,7 +162,9 @@ class Newton:
 
     def __post_init__(self) -> None:
         self.assembly = Assembly(self.problem)
-        self.matrix: LinearSolver = linear_solver(self.options.linear_solver)
+        self.matrix: LinearSolver = quick_solver(
+            self.options.linear_solver, self.assembly.numbering.size
+        )
         self.matrix.analyze(self.assembly.pattern)
         self.move = motion_along(self.problem.mesh, self.problem.axis)
         self.trusted = trusted_nodes(self.problem)
@@ -164,20 +173,19 @@ class Newton:
     def correct(self, guess: State, load: float, tolerance: float) -> Attempt:
         """Newton iterations at a fixed load from ``guess``, until a correction is small.
 
-        The first correction after a predictor may be small by chance, with large ones to follow:
-        a ``tolerance`` looser than the options' counts only while corrections shrink. The
-        factorization left behind is the last iteration's.
+        A factorization serves as long as corrections shrink fast. The first correction after a
+        predictor may be small by chance, with large ones to follow: a ``tolerance`` looser than
+        the options' counts only while corrections shrink.
         """
-        state, previous, size = guess, 0.0, self.problem.mesh.size
+        state, previous, size, reuse = guess, 0.0, self.problem.mesh.size, False
         for iteration in range(1, self.options.maximum_iterations + 1):
-            equilibrium = self.assembly.evaluate(state, load * self.pressure)
+            equilibrium = self.assembly.evaluate(state, load * self.pressure, tangent=not reuse)
             if not equilibrium.admissible:
                 return Attempt(guess, iteration, "an element would turn inside out")
             try:
-                self.factorize(equilibrium.tangent)
+                increment = self.increment(equilibrium, reuse)
             except SingularMatrix as error:
                 return Attempt(guess, iteration, f"the tangent is singular ({error})")
-            increment = self.solve(-equilibrium.residual)
             correction = float(np.abs(self.linear(state, increment)).max())
             if not correction < DIVERGED * size:
                 return Attempt(guess, iteration, "the Newton corrections grew without bound")
@@ -187,19 +195,34 @@ class Newton:
             contracting = correction < previous
             if correction <= (tolerance if contracting else self.options.tolerance) * size:
                 return self.verified(state, load, iteration, guess)
-            previous = correction
+            previous, reuse = correction, correction < REUSED * previous
         return Attempt(guess, iteration, f"Newton did not converge in {iteration} iterations")
+
+    def increment(self, equilibrium: Equilibrium, reuse: bool) -> State:
+        """Newton's increment, by a new factorization or by the one at hand."""
+        if not reuse:
+            self.factorize(equilibrium.tangent)
+        return self.solve(-equilibrium.residual)
 
     def verified(self, state: State, load: float, iterations: int, guess: State) -> Attempt:
         """Accept a converged state only if no element of it is turned inside out."""
-        if self.assembly.evaluate(state, load * self.pressure, tangent=False).admissible:
-            return Attempt(state, iterations)
+        equilibrium = self.assembly.evaluate(state, load * self.pressure, tangent=False)
+        if equilibrium.admissible:
+            return Attempt(state, iterations, force=equilibrium.force)
         return Attempt(guess, iterations, "an element would turn inside out")
 
-    def direction(self, state: State, load: float) -> State:
-        """Derivative of the equilibrium with respect to the load, by the factorization at hand."""
-        force = self.assembly.evaluate(state, load * self.pressure, tangent=False).force
+    def direction(self, force: Reals) -> State:
+        """Derivative of the equilibrium with respect to the load, by the factorization at hand.
+
+        ``force``: the residual's derivative with respect to the pressure, mm^2.
+        """
         return self.solve(-self.pressure * force)
+
+    def sharpen(self) -> None:
+        """Go on in double precision, if single precision was this solver's own choice."""
+        if self.options.linear_solver == "auto" and self.matrix.name == "pardiso-single":
+            self.matrix = linear_solver("pardiso")
+            self.matrix.analyze(self.assembly.pattern)
 
     def factorize(self, tangent: Reals) -> None:
         """Factorize a tangent and count it."""
@@ -274,7 +297,7 @@ def _jump(newton: Newton, initial: State, stops: tuple[float, ...]) -> Walk | No
         return None
     newton.effort.load_steps += 1
     points: tuple[PathPoint, ...] = (newton.point(attempt.state, 1.0, attempt.iterations),)
-    leg = Leg(attempt.state, 1.0, 1.0)
+    leg = Leg(attempt, 1.0, 1.0)
     for stop in reversed(stops):
         leg = _walk_to(newton, stop, leg)
         if leg.failure:
@@ -286,22 +309,23 @@ def _jump(newton: Newton, initial: State, stops: tuple[float, ...]) -> Walk | No
 def _walk(newton: Newton, stops: tuple[float, ...]) -> Walk:
     """Up from zero load, through ``stops``."""
     zero = State.zero(newton.problem)
-    newton.factorize(newton.assembly.evaluate(zero, 0.0).tangent)
+    equilibrium = newton.assembly.evaluate(zero, 0.0)
+    newton.factorize(equilibrium.tangent)
     points: tuple[PathPoint, ...] = (newton.point(zero, 0.0, 0),)
-    leg = Leg(zero, 0.0, newton.options.first_step)
+    leg = Leg(Attempt(zero, 0, force=equilibrium.force), 0.0, newton.options.first_step)
     for stop in (*stops, 1.0):
         leg = _walk_to(newton, stop, leg)
         points += leg.points
         if leg.failure:
             break
-    return Walk(leg.state, points, leg.failure)
+    return Walk(leg.reached.state, points, leg.failure)
 
 
 @dataclass(frozen=True)
 class Leg:
     """Part of a walk: where it ended, the size of the next step, points on it, why it stopped."""
 
-    state: State
+    reached: Attempt
     load: float
     step: float
     points: tuple[PathPoint, ...] = ()
@@ -311,33 +335,40 @@ class Leg:
 def _walk_to(newton: Newton, end: float, leg: Leg) -> Leg:
     """Adaptive load steps, up or down: predict along the tangent, correct, grow or cut the step.
 
-    Needs the factorization at the state it starts from.
+    Needs a factorization near the state it starts from.
     """
     options = newton.options
-    state, load, step = leg.state, leg.load, leg.step
+    reached, load, step = leg.reached, leg.load, leg.step
     points: tuple[PathPoint, ...] = ()
-    direction = newton.direction(state, load)
+    direction = newton.direction(reached.force)
     while load != end:
-        reached = abs(end - load) <= step * (1 + 1e-9)
-        target = end if reached else load + np.copysign(step, end - load)
-        guess = newton.advance(state, direction, target - load)
-        tolerance = options.tolerance if reached else options.loose_tolerance
-        attempt = newton.correct(guess, target, tolerance)
+        last = abs(end - load) <= step * (1 + 1e-9)
+        target = end if last else load + np.copysign(step, end - load)
+        guess = newton.advance(reached.state, direction, target - load)
+        attempt = newton.correct(
+            guess, target, options.tolerance if last else options.loose_tolerance
+        )
         if attempt.failure:
             newton.effort.refused_steps += 1
-            newton.notify("refused", target, state, attempt.iterations, np.inf)
+            newton.notify("refused", target, reached.state, attempt.iterations, np.inf)
             step = options.cut * abs(target - load)
             if step < options.smallest_step:
-                return Leg(state, load, step, points, attempt.failure)
+                return Leg(reached, load, step, points, attempt.failure)
+            if step < SHARPENED:
+                newton.sharpen()
             continue
         step = max(step, options.growth * abs(target - load))
-        state, load = attempt.state, target
-        points += (newton.point(state, load, attempt.iterations),)
+        reached, load = attempt, target
+        points += (newton.point(attempt.state, load, attempt.iterations),)
         newton.effort.load_steps += 1
-        newton.notify("step", load, state, attempt.iterations, 0.0)
+        newton.notify("step", load, attempt.state, attempt.iterations, 0.0)
         if load != end:
-            direction = newton.direction(state, load)
-    return Leg(state, load, step, points)
+            direction = newton.direction(attempt.force)
+    return Leg(reached, load, step, points)
+
+
+SHARPENED = 0.03
+"""A step cut below this fraction of the load asks for double precision."""
 
 
 def _start(newton: Newton, displacement: Reals, pressure: Reals) -> State:
