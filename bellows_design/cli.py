@@ -177,9 +177,7 @@ def evaluate(
 
         pressures = () if pressure is None else parse_pressures(pressure)
         chosen = _load(name, settings, pressures[-1] if pressures else None)
-        if vtu is not None:
-            _require_suffix(vtu, ".vtu")
-            _require_folder(vtu)
+        _require_file(vtu, ".vtu")
         from bellows_design import evaluation  # heavy: not before the input is known to be good
 
         with on_stderr() as progress:
@@ -217,6 +215,53 @@ def run(
     answer(work, as_json)
 
 
+@app.command()
+def benchmark(
+    name: DesignName = "prototype_1",
+    model: Annotated[
+        list[Model] | None,
+        typer.Option(help="Model to measure; repeatable. Without it the unit cell and the half."),
+    ] = None,
+    meshes: Annotated[
+        int | None,
+        typer.Option(
+            metavar="N", help="Meshes of each model, coarse to fine; as few as refinable."
+        ),
+    ] = None,
+    output: Annotated[Path | None, typer.Option(help="Also write everything as .json.")] = None,
+    plot: Annotated[
+        Path | None, typer.Option(help="Also draw error over seconds (.png); needs matplotlib.")
+    ] = None,
+    settings: Settings = None,
+    as_json: AsJson = False,
+) -> None:
+    """Measure speed against error: models by meshes, against converged values."""
+
+    def work() -> Answer:
+        from bellows_design import plots, tables
+        from bellows_design.export import write_json
+        from bellows_design.progress import on_stderr
+
+        chosen = _load(name, settings)
+        _require_file(output, ".json")
+        _require_file(plot, ".png")
+        if plot is not None:
+            plots.require_matplotlib()
+        from bellows_design import benchmark  # heavy: not before the input is known to be good
+
+        names = [each.value for each in model or ()] or benchmark.DEFAULT_MODELS
+        with on_stderr() as progress:
+            study = benchmark.study(chosen, names, meshes, progress)
+        content = study.to_dict()
+        if output is not None:
+            write_json(content, output)
+        if plot is not None:
+            plots.plot_benchmark(content, plot)
+        return Answer(content, tables.benchmark_tables(content), 0 if study.converged else 3)
+
+    answer(work, as_json)
+
+
 def _load(
     name: str, settings: list[str] | None, pressure: float | None = None, rename: bool = False
 ) -> Design:
@@ -228,6 +273,13 @@ def _load(
     changes = [*(settings or []), *([] if pressure is None else [f"load.pressure={pressure!r}"])]
     changed = with_overrides(original, changes)
     return renamed_if_changed(changed, original) if rename else changed
+
+
+def _require_file(path: Path | None, suffix: str) -> None:
+    """Refuse a file that cannot be written or whose name does not end in ``suffix``."""
+    if path is not None:
+        _require_suffix(path, suffix)
+        _require_folder(path)
 
 
 def _require_folder(path: Path) -> None:

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from rich.box import SIMPLE
-from rich.console import RenderableType
+from rich.console import JustifyMethod, RenderableType
 from rich.table import Table
 from rich.text import Text
 
@@ -85,6 +85,127 @@ def outcome_table(outcome: Mapping[str, Any]) -> Sequence[RenderableType]:
     if outcome["withdrawn"] is not None:
         lines.append(f"The earlier export {outcome['withdrawn']} was withdrawn.")
     return lines
+
+
+def benchmark_tables(benchmark: Mapping[str, Any]) -> Sequence[RenderableType]:
+    """Work and precision of every mesh of every model, then orders, growth and the machine."""
+    models = benchmark["models"]
+    work = _numbers(f"{benchmark['design']}: work", WORK)
+    precision = _numbers("precision", PRECISION)
+    for model in models:
+        for mesh in model["meshes"]:
+            last = mesh is model["meshes"][-1]
+            work.add_row(model["model"], *_work(mesh), end_section=last)
+            precision.add_row(model["model"], *_precision(mesh), end_section=last)
+    texts = [text for model in models for text in _findings(model)]
+    return [work, precision, *texts, _machine(benchmark["machine"])]
+
+
+WORK = (
+    "model",
+    "tetra-\nhedra",
+    "un-\nknowns",
+    "itera-\ntions",
+    "factor-\nized",
+    "geom.,\ns",
+    "mesh,\ns",
+    "solve,\ns",
+    "so far,\ns",
+    "peak,\nMiB",
+)
+PRECISION = (
+    "model",
+    "tetra-\nhedra",
+    "so far,\ns",
+    "angle,\n°",
+    "error,\n%",
+    "esti-\nmate",
+    "esti./\nerror",
+    "stress,\nMPa",
+    "error,\n%",
+    "esti-\nmate",
+    "esti./\nerror",
+)
+
+
+def _numbers(title: str, headings: Sequence[str]) -> Table:
+    """An empty table of numbers that keeps its digits together."""
+    table = Table(title=title, title_justify="left", box=SIMPLE, padding=0)
+    for heading in headings:
+        justify: JustifyMethod = "left" if heading == "model" else "right"
+        table.add_column(heading, justify=justify, no_wrap=True)
+    return table
+
+
+def _work(mesh: Mapping[str, Any]) -> tuple[str, ...]:
+    seconds, memory = mesh["seconds"], mesh["peak_memory_mib"]
+    counts = ("elements", "unknowns", "newton_iterations", "factorizations")
+    return (
+        *(str(mesh[name]) for name in counts),
+        *(f"{seconds[name]:.2f}" for name in ("geometry", "mesh", "solve")),
+        f"{mesh['seconds_so_far']['total']:.2f}",
+        _known(memory, ".0f"),
+    )
+
+
+def _precision(mesh: Mapping[str, Any]) -> tuple[str, ...]:
+    cells = [str(mesh["elements"]), f"{mesh['seconds_so_far']['total']:.2f}"]
+    for key, value in (
+        ("bending_angle", f"{mesh['bending_angle_deg']:.2f}"),
+        ("max_von_mises", f"{mesh['max_von_mises_mpa']:.3f}"),
+    ):
+        cells += [
+            value,
+            _known(mesh["error"][f"{key}_percent"], ".2f"),
+            _known(mesh["error_estimate"][f"{key}_percent"], ".2f"),
+            _known(mesh["estimate_over_error"][key], ".2g"),
+        ]
+    return tuple(cells)
+
+
+def _findings(model: Mapping[str, Any]) -> list[str]:
+    """What a model's rows say together, and what they are measured against."""
+    name, orders, reference = model["model"], model["orders"], model["reference"]
+    lines = [f"{name}: errors are against {reference['recipe']}."]
+    if reference["finest_half"] is not None:
+        lines.append(_against_half(model))
+    if len(model["meshes"]) > 1:
+        angle, stress = (_listed(orders[key]) for key in ("bending_angle", "max_von_mises"))
+        lines.append(f"{name}: observed orders in 1/tetrahedra: angle {angle}; stress {stress}.")
+    if model["exponent"] is not None:
+        power = f"unknowns^{model['exponent']:.2f}"
+        lines.append(f"{name}: the seconds per factorization grow as {power}.")
+    if model["note"]:
+        label = "no finer mesh" if model["converged"] else "NOT CONVERGED"
+        lines.append(f"{name}: {label}: {model['note']}")
+    return lines
+
+
+def _against_half(model: Mapping[str, Any]) -> str:
+    errors = [mesh["error_against_finest_half"] for mesh in model["meshes"]]
+    angle, stress = (
+        _listed([error[f"{key}_percent"] for error in errors])
+        for key in ("bending_angle", "max_von_mises")
+    )
+    recipe = model["reference"]["finest_half"]["recipe"]
+    return f"{model['model']}: against {recipe}: angle {angle} %; stress {stress} %."
+
+
+def _machine(machine: Mapping[str, Any]) -> str:
+    memory, load = machine["memory_gib"], machine["load_average"]
+    return (
+        f"{machine['processor']}, {machine['cores']} cores"
+        + ("" if memory is None else f", {memory:.1f} GiB")
+        + ("" if load is None else f"; load average before the start {load:.1f}")
+    )
+
+
+def _listed(values: Sequence[float | None]) -> str:
+    return ", ".join(_known(value, ".2f") for value in values)
+
+
+def _known(value: float | None, form: str) -> str:
+    return "–" if value is None else format(value, form)
 
 
 def _not_reached(evaluation: Mapping[str, Any]) -> Text:

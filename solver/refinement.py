@@ -37,6 +37,10 @@ class Refinement:
     near_peak: float = 0.75
 
 
+STEP = 0.01
+"""Sizes are rounded to steps of this ratio: rounding errors of the solution, which differ from run
+to run, shall not make another mesh."""
+
 FINEST, COARSEST = 1 / 3, 1.3
 """Bounds of an element's new size in units of its old one: one solution tells no more."""
 
@@ -55,7 +59,8 @@ def refined_sizes(solution: Solution, refinement: Refinement) -> Reals:
     corners = mesh.tets[:, :4]
     total = np.bincount(corners.ravel(), np.repeat(sizes, 4), len(mesh.nodes))
     count = np.bincount(corners.ravel(), minlength=len(mesh.nodes))
-    at_nodes: Reals = np.exp(total / np.maximum(count, 1))
+    steps = np.round(total / np.maximum(count, 1) / STEP)
+    at_nodes: Reals = np.exp(STEP * steps)
     return at_nodes
 
 
