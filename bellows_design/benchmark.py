@@ -6,9 +6,9 @@ Times are those of a warm process: a first evaluation, which is not timed, has c
 from __future__ import annotations
 
 import math
-import time
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import asdict, astuple, dataclass, field
+from functools import cache
 from importlib.resources.abc import Traversable
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
@@ -18,8 +18,8 @@ from bellows_design.evaluation import (
     MOST_ELEMENTS,
     ErrorEstimate,
     Evaluation,
-    _with_ends,
     refined,
+    started,
 )
 from bellows_design.machine import machine, peak_memory_mib
 from bellows_design.models import HALF, UNIT_CELL, Model, choose
@@ -38,18 +38,18 @@ MOST_MESHES = 9
 
 @dataclass(frozen=True)
 class Work:
-    """What one solve took; ``seconds`` are the solver's alone."""
+    """What one solve took."""
 
     elements: int
     unknowns: int
     newton_iterations: int
     factorizations: int
-    seconds: float
+    solver_seconds: float
 
     @property
     def seconds_per_factorization(self) -> float:
         """Seconds of the solve for each factorization in it."""
-        return self.seconds / max(self.factorizations, 1)
+        return self.solver_seconds / max(self.factorizations, 1)
 
 
 @dataclass(frozen=True)
@@ -183,7 +183,7 @@ class Series:
         against_half = None if half is None else asdict(level.errors(self.model, half))
         return {
             **asdict(level.work),
-            "seconds": level.stages.to_dict() | {"newton": level.work.seconds},
+            "seconds": level.stages.to_dict(),
             "seconds_per_factorization": level.work.seconds_per_factorization,
             "seconds_so_far": level.so_far.to_dict(),
             "converged": level.converged,
@@ -243,7 +243,8 @@ def study(
         raise ValueError(f"meshes = {meshes} must lie between 1 and {MOST_MESHES}.")
     chosen = {model.name: (model, why) for model, why in (choose(design, m) for m in models)}
     described, reference = machine(), reference_of(design, references)
-    warm_up(progress)
+    progress.stage("warm-up, not timed")
+    warm_up()
     series = tuple(
         _series(design, model, why, meshes or model.levels + 1, reference, progress)
         for model, why in chosen.values()
@@ -251,9 +252,9 @@ def study(
     return Study(design, series, described)
 
 
-def warm_up(progress: Progress = SILENCE) -> None:
-    """Compile or load every kernel: two small meshes of a shipped design, and its ends."""
-    progress.stage("warm-up, not timed")
+@cache
+def warm_up() -> None:
+    """Compile or load every kernel, once: two small meshes of a shipped design, and its ends."""
     for evaluation in evaluations(load_design("prototype_1"), UNIT_CELL, "warm-up", 2):
         _ = evaluation.error_estimate
 
@@ -262,18 +263,11 @@ def evaluations(
     design: Design, model: Model, reason: str, meshes: int, progress: Progress = SILENCE
 ) -> Iterator[Evaluation]:
     """What ``evaluate`` would return after each of so many meshes."""
-    progress.stage(f"geometry of the {model.name}")
-    start = time.perf_counter()
-    solid = model.solid(design)
-    spent = asdict(Stages(geometry=time.perf_counter() - start))
-    evaluation = Evaluation(design, model, reason, solid, (), spent)
-    for _ in range(meshes):
+    evaluation = started(design, model, reason, progress=progress)
+    yield evaluation
+    while len(evaluation.solutions) < meshes and evaluation.can_refine:
         evaluation = refined(evaluation, progress)
-        if model is UNIT_CELL and evaluation.ends is None and evaluation.converged:
-            evaluation = _with_ends(evaluation, progress)
         yield evaluation
-        if not evaluation.can_refine:
-            return
 
 
 def observed_orders(

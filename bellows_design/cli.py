@@ -224,9 +224,7 @@ def benchmark(
     ] = None,
     meshes: Annotated[
         int | None,
-        typer.Option(
-            metavar="N", help="Meshes of each model, coarse to fine; as few as refinable."
-        ),
+        typer.Option(metavar="N", help="Meshes of each; without it one more than evaluate uses."),
     ] = None,
     output: Annotated[Path | None, typer.Option(help="Also write everything as .json.")] = None,
     plot: Annotated[

@@ -255,18 +255,29 @@ def evaluate(
             kernel refuses.
         MeshingError: no usable mesh.
     """
-    chosen, reason = choose(design, model)
     _check(design, accuracy_percent, pressures)
-    progress.stage(f"geometry of the {chosen.name}")
-    start = time.perf_counter()
-    solid = chosen.solid(design)
-    spent = {"geometry": time.perf_counter() - start, "mesh": 0.0, "solve": 0.0}
-    blank = Evaluation(design, chosen, reason, solid, (), spent, tuple(sorted(pressures)))
-    evaluation = refined(blank, progress)
-    if chosen is UNIT_CELL and evaluation.converged:
-        evaluation = _with_ends(evaluation, progress)
+    evaluation = started(design, *choose(design, model), pressures, progress)
     while evaluation.can_refine and not _enough(evaluation, accuracy_percent):
         evaluation = refined(evaluation, progress)
+    return evaluation
+
+
+def started(
+    design: Design,
+    model: Model,
+    reason: str,
+    pressures: Sequence[float] = (),
+    progress: Progress = SILENCE,
+) -> Evaluation:
+    """``design`` on the coarsest mesh of ``model``, with the ends if that is the unit cell."""
+    progress.stage(f"geometry of the {model.name}")
+    start = time.perf_counter()
+    solid = model.solid(design)
+    spent = {"geometry": time.perf_counter() - start, "mesh": 0.0, "solve": 0.0}
+    blank = Evaluation(design, model, reason, solid, (), spent, tuple(sorted(pressures)))
+    evaluation = refined(blank, progress)
+    if model is UNIT_CELL and evaluation.converged:
+        return _with_ends(evaluation, progress)
     return evaluation
 
 

@@ -110,9 +110,9 @@ def _actuator(design: Design, mesh: Mesh, symmetry: dict[str, int]) -> Problem:
     )
 
 
-UNIT_CELL = Model("unit-cell", _cell_solid, _cell_problem, share=4, levels=3, growth=3.0)
-HALF = Model("half", _half_solid, _half_problem, share=2, levels=2, growth=2.2)
-FULL = Model("full", _full_solid, _full_problem, share=1, levels=2, growth=2.2)
+UNIT_CELL = Model("unit-cell", _cell_solid, _cell_problem, share=4, levels=3, growth=2.0)
+HALF = Model("half", _half_solid, _half_problem, share=2, levels=2, growth=1.6)
+FULL = Model("full", _full_solid, _full_problem, share=1, levels=2, growth=1.6)
 MODELS = {model.name: model for model in (UNIT_CELL, HALF, FULL)}
 
 

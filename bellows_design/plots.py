@@ -54,15 +54,22 @@ def _draw(axes: Axes, models: Sequence[Mapping[str, Any]], key: str, label: str)
         colour = COLOURS[number % len(COLOURS)]
         axes.plot(seconds, errors, "o-", color=colour, label=model["model"])
         for mesh, x, y in zip(known, seconds, errors, strict=True):
-            axes.annotate(
-                f"{mesh['elements']}",
-                (x, y),
-                xytext=(5, 5),
-                textcoords="offset points",
-                fontsize=8,
-                color=colour,
-            )
+            _label(axes, str(mesh["elements"]), (x, y), colour)
     axes.margins(0.15)
-    axes.xaxis.set_major_formatter("{x:g}")
-    axes.yaxis.set_major_formatter("{x:g}")
+    _plain_numbers(axes)
     axes.legend(title="model, with tetrahedra")
+
+
+def _label(axes: Axes, text: str, point: tuple[float, float], colour: str) -> None:
+    """Small, beside its point."""
+    axes.annotate(text, point, xytext=(5, 5), textcoords="offset points", fontsize=8, color=colour)
+
+
+def _plain_numbers(axes: Axes) -> None:
+    """0.5, 1, 2, 5 instead of powers of ten."""
+    from matplotlib.ticker import LogLocator, NullFormatter
+
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        axis.set_major_formatter("{x:g}")
+        axis.set_minor_formatter(NullFormatter())

@@ -29,9 +29,10 @@ def _range(start: float, stop: float, step: float, text: str) -> tuple[float, ..
         raise DesignError(
             f"--pressure {quoted(text)} must rise from above 0 MPa: START <= STOP and STEP > 0."
         )
-    count = math.floor((stop - start) / step + 1e-9)
-    if count >= MOST:
-        raise DesignError(f"--pressure {quoted(text)} has {count + 1} values; at most {MOST}.")
+    steps = (stop - start) / step
+    if not steps < MOST:
+        raise DesignError(f"--pressure {quoted(text)} has too many values; at most {MOST}.")
+    count = math.floor(steps + 1e-9)
     inner = [start + index * step for index in range(count + 1)]
     return (*(p for p in inner if p < stop * (1 - 1e-9)), stop)
 

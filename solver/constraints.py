@@ -99,6 +99,11 @@ def number_unknowns(mesh: Mesh, supports: Supports, moving_plane: str | None = N
 def check_supports(mesh: Mesh, supports: Supports, moving_plane: str | None = None) -> None:
     """Raise ``ValueError`` if a moving plane is not plane or a rigid motion of the body is free."""
     if moving_plane is not None:
+        if supports.clamped or moving_plane in supports.symmetry:
+            raise ValueError(
+                f"supports: the moving plane {moving_plane!r} goes with planes of symmetry other "
+                "than itself, not with clamps."
+            )
         x = mesh.nodes[mesh.surface_nodes(moving_plane), 0]
         if len(x) == 0 or np.ptp(x) > 1e-6 * mesh.size:
             raise ValueError(

@@ -42,6 +42,7 @@ PARDISO_PARAMETERS = {
     8: 0,  # iterative refinement only where pivots had to be perturbed
     10: 8,  # perturb pivots below 1e-8
     21: 1,  # Bunch-Kaufman pivots: the matrix is indefinite
+    34: 2,  # the same bits in every run, whatever the threads do
     35: 1,  # indices start at 0
 }
 TWO_LEVEL, SINGLE_PRECISION = 24, 28

@@ -19,6 +19,10 @@ HXT, FRONTAL_DELAUNAY, TETRAHEDRON_10 = 10, 6, 11  # Gmsh's numbers
 FACES_OF_A_TETRAHEDRON = ((1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1))  # each seen from outside
 
 
+SIZE_OF_EDGE = 0.83
+"""Size to ask of Gmsh for a mean edge of 1: its tetrahedra come out that much larger."""
+
+
 class MeshingError(RuntimeError):
     """Gmsh could not mesh the solid, or not well enough; the message says where."""
 
@@ -127,7 +131,7 @@ def _use_field(gmsh: Any, field: SizeField) -> None:
     """Make Gmsh interpolate ``field`` linearly in its mesh's tetrahedra."""
     corners = field.mesh.tets[:, :4]
     points = field.mesh.nodes[corners]
-    table = np.hstack([*np.moveaxis(points, 2, 0), field.sizes[corners]])
+    table = np.hstack([*np.moveaxis(points, 2, 0), SIZE_OF_EDGE * field.sizes[corners]])
     view = gmsh.view.add("sizes")
     gmsh.view.addListData(view, "SS", len(table), table.ravel())
     number = gmsh.model.mesh.field.add("PostView")

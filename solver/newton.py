@@ -29,7 +29,8 @@ class SolverOptions:
     Steps are fractions of the asked pressure. A load counts as reached when the last Newton
     correction moved no node by more than ``tolerance``, in units of the body's diagonal; what is
     left after that correction is far smaller. Below the asked pressure ``loose_tolerance`` will
-    do, if the correction was smaller than the one before.
+    do, if the correction was smaller than the one before. A factorization is used again after a
+    correction that was smaller than the one before by the factor ``reuse``; 0 is never.
     """
 
     first_step: float = 0.1
@@ -39,6 +40,7 @@ class SolverOptions:
     maximum_iterations: int = 12
     tolerance: float = 1e-5
     loose_tolerance: float = 5e-3
+    reuse: float = 0.25
     linear_solver: str = "auto"
 
     def __post_init__(self) -> None:
@@ -58,6 +60,7 @@ OPTION_BOUNDS = (
     ("maximum_iterations", 0, 1000),
     ("tolerance", 0, 0.1),
     ("loose_tolerance", 0, 0.1),
+    ("reuse", -1, 0.9),
 )
 
 
@@ -79,9 +82,6 @@ class Event:
 
 
 Listener = Callable[[Event], None]
-
-REUSED = 0.25
-"""A factorization is used again after a correction so much smaller than the one before."""
 
 DIVERGED = 1.0
 """A correction of so many body diagonals corrects nothing."""
@@ -195,7 +195,7 @@ class Newton:
             contracting = correction < previous
             if correction <= (tolerance if contracting else self.options.tolerance) * size:
                 return self.verified(state, load, iteration, guess)
-            previous, reuse = correction, correction < REUSED * previous
+            previous, reuse = correction, correction < self.options.reuse * previous
         return Attempt(guess, iteration, f"Newton did not converge in {iteration} iterations")
 
     def increment(self, equilibrium: Equilibrium, reuse: bool) -> State:
@@ -280,7 +280,7 @@ class Newton:
 
 def _stops(pressures: Sequence[float], pressure: float) -> tuple[float, ...]:
     """Pressures to visit as ascending fractions of the asked one, strictly within (0, 1)."""
-    loads = sorted({float(stop) / pressure for stop in pressures}) if pressure else []
+    loads = sorted({float(stop) / pressure if pressure else np.inf for stop in pressures})
     if not all(0 < load <= 1 + 1e-12 for load in loads):
         raise ValueError(
             f"stops must lie between 0 and the pressure of {pressure:g} MPa, got {list(pressures)}."

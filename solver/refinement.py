@@ -49,7 +49,7 @@ ENERGY_ORDER, STRESS_ORDER = 7 / 2, 2.0
 
 
 def refined_sizes(solution: Solution, refinement: Refinement) -> Reals:
-    """Edge lengths the next mesh should have at the nodes of this one, (n,), mm."""
+    """Edge lengths the next mesh should have at the corners of this one, (n,), mm; 1 elsewhere."""
     mesh = solution.problem.mesh
     stress = element_stress(solution)
     ratio = np.minimum(
@@ -94,6 +94,6 @@ def _peak_ratios(solution: Solution, stress: ElementStress, refinement: Refineme
     level = np.where(trusted, von_mises(stress.smoothed), 0.0)
     jumps = np.where(trusted, von_mises(stress.jumps), 0.0)
     peak = level.max()
-    near = (level + jumps).max(axis=1) >= refinement.near_peak * peak
+    near = (peak > 0) & ((level + jumps).max(axis=1) >= refinement.near_peak * peak)
     wanted = refinement.peak_tolerance * peak / np.maximum(jumps.max(axis=1), 1e-300)
     return np.where(near, np.clip(wanted ** (1 / STRESS_ORDER), FINEST, COARSEST), COARSEST)

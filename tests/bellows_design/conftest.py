@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -11,9 +11,11 @@ from fakes import fake_report
 
 from bellows_design.design import Design
 from bellows_design.formats import Part
-from bellows_design.progress import Progress
+from bellows_design.progress import Progress, Silence
 from bellows_design.tessellation import tessellate
 from printers import PrintabilityReport
+
+SILENCE = Silence()
 
 
 @pytest.fixture(scope="session")
@@ -40,8 +42,8 @@ def stub_stages(monkeypatch: pytest.MonkeyPatch, cube_part: Part) -> Callable[..
             design: Design,
             model: str = "auto",
             accuracy: float | None = None,
-            *,
-            progress: Progress,
+            pressures: Sequence[float] = (),
+            progress: Progress = SILENCE,
         ) -> Any:
             progress.stage("solve")
             if isinstance(evaluation, BaseException):

@@ -24,11 +24,13 @@ class FakeEvaluation:
     bending_angle_deg: float = 400.0
     max_von_mises_mpa: float = 3.0
     error_estimate: FakeEstimate = field(default_factory=FakeEstimate)
+    curve: tuple[dict[str, float], ...] = ()
 
     def to_dict(self) -> dict[str, Any]:
         return {
             "design": "fake",
             "model": "half",
+            "model_reason": "as asked for",
             "pressure_mpa": self.pressure_mpa,
             "converged": self.converged,
             "message": self.message,
@@ -44,6 +46,7 @@ class FakeEvaluation:
             "mesh": {"elements": 1, "nodes": 10, "unknowns": 34},
             "solver": {"load_steps": 1, "newton_iterations": 2, "linear_solver": "none"},
             "seconds": {"total": 0.0},
+            "curve": self.curve,
         }
 
 

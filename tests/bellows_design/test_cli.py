@@ -17,7 +17,7 @@ from fakes import FakeEstimate, FakeEvaluation, fake_report
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from bellows_design.design import load_design, shipped_designs
+from bellows_design.design import Design, load_design, shipped_designs
 from bellows_design.system_libraries import INSTALL, PACKAGES, missing_library
 from bellows_design.terminal import explained, stdout_is_stderr
 from printers import RuleResult
@@ -61,7 +61,9 @@ def test_list_names_every_shipped_design(bellows: Bellows) -> None:
         (["run", "prototype_1", "--set", "bubble_width=20000"], "20000 µm would be 20 mm"),
         (["evaluate", "prototype_1", "--set", "bubble_width=nan"], "finite number"),
         (["evaluate", "prototype_1", "--pressure", "100"], "100 kPa would be 0.1 MPa"),
-        (["evaluate", "prototype_1", "--pressure", "nan"], "finite number"),
+        (["evaluate", "prototype_1", "--pressure", "nan"], "“nan” is no number of MPa"),
+        (["evaluate", "prototype_1", "--pressure", "0.1:0.02:0.01"], "START <= STOP"),
+        (["evaluate", "prototype_1", "--pressure", "0.1:100:50"], "100 kPa would be 0.1 MPa"),
         (["evaluate", "prototype_1", "--accuracy", "0"], "must lie between 0.01 and 100 %"),
         (["run", "prototype_1", "--set", "name=../x"], "name is “../x”"),
         (["design", "prototype_1", "-o", "part.obj"], "must end in .stl"),
@@ -224,6 +226,49 @@ def test_evaluate_shows_angle_and_stress_with_their_errors(
     stub_stages(FakeEvaluation())
     status, out, _ = bellows("evaluate", "prototype_1")
     assert status == 0 and "400°" in out and "3 MPa (± 1 % estimated)" in out
+
+
+def test_a_range_of_pressures_gives_a_curve_up_to_its_end(
+    bellows: Bellows, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked: list[tuple[object, ...]] = []
+    readings = tuple(
+        {
+            "pressure_mpa": pressure,
+            "bending_angle_deg": 1000 * pressure,
+            "max_von_mises_mpa": 30 * pressure,
+            "cavity_volume_mm3": 7000 + pressure,
+        }
+        for pressure in (0.02, 0.04, 0.05)
+    )
+
+    def evaluate(design: Design, *arguments: object) -> FakeEvaluation:
+        asked.append((design.load.pressure, *arguments[:-1]))
+        return FakeEvaluation(curve=readings)
+
+    monkeypatch.setattr("bellows_design.evaluation.evaluate", evaluate)
+    arguments = ("--pressure", "0.02:0.05:0.02", "--model", "half", "--accuracy", "3")
+    status, out, _ = bellows("evaluate", "prototype_1", *arguments)
+    assert status == 0 and asked == [(0.05, "half", 3.0, (0.02, 0.04, 0.05))]
+    for number in ("20.00", "40.00", "50.00", "1.200", "0.02", "0.04"):
+        assert number in out
+    status, out, _ = bellows("evaluate", "prototype_1", "--json", *arguments)
+    assert json.loads(out)["curve"] == list(readings)
+
+
+def test_without_a_pressure_the_designs_own_is_taken_and_the_model_chosen(
+    bellows: Bellows, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked: list[tuple[object, ...]] = []
+
+    def evaluate(design: Design, *arguments: object) -> FakeEvaluation:
+        asked.append((design.load.pressure, *arguments[:-1]))
+        return FakeEvaluation()
+
+    monkeypatch.setattr("bellows_design.evaluation.evaluate", evaluate)
+    for arguments in ((), ("--pressure", "0.03")):
+        assert bellows("evaluate", "prototype_1", *arguments)[0] == 0
+    assert asked == [(0.1, "auto", None, ()), (0.03, "auto", None, (0.03,))]
 
 
 def test_what_c_code_prints_stays_off_stdout(capfd: pytest.CaptureFixture[str]) -> None:

@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from bellows_design.analysis import LADDER, half_problem, half_solid, mesh_of
-from bellows_design.contact import contact_of
+from bellows_design.analysis import first_mesh
+from bellows_design.contact import Contact, contact_of
 from bellows_design.design import Design, load_design
+from bellows_design.models import HALF
 from bellows_design.parameters import BellowsParameters
-from solver import Problem, Solution
+from solver import Problem
 
 Array = NDArray[np.float64]
 BELLOWS = BellowsParameters.model_validate(
@@ -22,26 +23,11 @@ GAP = BELLOWS.bubble_distance
 @pytest.fixture(scope="module")
 def problem() -> Problem:
     design = Design(name="short", bellows=BELLOWS)
-    return half_problem(design, mesh_of(half_solid(design), design, LADDER[0]))
+    return HALF.problem(design, first_mesh(HALF.solid(design), design))
 
 
-def solution(problem: Problem, displacement: Array) -> Solution:
-    return Solution(
-        problem=problem,
-        pressure=0.1,
-        displacement=displacement,
-        hydrostatic_pressure=np.zeros(len(problem.mesh.vertices)),
-        path=(),
-        converged=True,
-        message="made up",
-        newton_iterations=0,
-        factorizations=0,
-        load_steps=0,
-        refused_steps=0,
-        linear_solver="none",
-        negative_pivots=None,
-        seconds=0.0,
-    )
+def contact(problem: Problem, displacement: Array) -> Contact:
+    return contact_of(BELLOWS, problem.mesh, displacement)
 
 
 def compressed(problem: Problem, shift: float) -> Array:
@@ -64,40 +50,40 @@ def rolled(problem: Problem, turns: float) -> Array:
 
 
 def test_at_rest_the_narrowest_air_is_the_bubble_distance(problem: Problem) -> None:
-    contact = contact_of(BELLOWS, solution(problem, np.zeros_like(problem.mesh.nodes)))
-    assert not contact.detected and not contact.overlaps_itself
-    assert contact.min_gap_mm == pytest.approx(GAP, abs=1e-6)
+    found = contact(problem, np.zeros_like(problem.mesh.nodes))
+    assert not found.detected and not found.overlaps_itself
+    assert found.min_gap_mm == pytest.approx(GAP, abs=1e-6)
 
 
 @pytest.mark.parametrize("shift", [-1.0, 0.4, 1.49])
 def test_bubbles_moved_together_are_nearer_by_that_much(problem: Problem, shift: float) -> None:
-    contact = contact_of(BELLOWS, solution(problem, compressed(problem, shift)))
-    assert not contact.detected and not contact.overlaps_itself
-    assert contact.min_gap_mm == pytest.approx(GAP - shift, abs=1e-6)
+    found = contact(problem, compressed(problem, shift))
+    assert not found.detected and not found.overlaps_itself
+    assert found.min_gap_mm == pytest.approx(GAP - shift, abs=1e-6)
 
 
 @pytest.mark.parametrize("shift", [1.51, 1.8, 2.5])
 def test_bubbles_moved_into_each_other_touch(problem: Problem, shift: float) -> None:
-    contact = contact_of(BELLOWS, solution(problem, compressed(problem, shift)))
-    assert contact.detected
-    assert contact.min_gap_mm is not None and contact.min_gap_mm < 0
+    found = contact(problem, compressed(problem, shift))
+    assert found.detected
+    assert found.min_gap_mm is not None and found.min_gap_mm < 0
 
 
 def test_a_bend_away_from_the_bubbles_opens_their_gaps(problem: Problem) -> None:
-    contact = contact_of(BELLOWS, solution(problem, rolled(problem, 0.5)))
-    assert not contact.detected and not contact.overlaps_itself
-    assert contact.min_gap_mm is not None and contact.min_gap_mm > GAP
+    found = contact(problem, rolled(problem, 0.5))
+    assert not found.detected and not found.overlaps_itself
+    assert found.min_gap_mm is not None and found.min_gap_mm > GAP
 
 
 @pytest.mark.parametrize("turns", [0.6, 0.7, 0.8, 0.9])  # 0.8: root rays meet the tip's face
 def test_a_tip_that_faces_the_root_across_the_air_overlaps_nothing(
     problem: Problem, turns: float
 ) -> None:
-    contact = contact_of(BELLOWS, solution(problem, rolled(problem, turns)))
-    assert not contact.overlaps_itself and not contact.detected
+    found = contact(problem, rolled(problem, turns))
+    assert not found.overlaps_itself and not found.detected
 
 
 def test_past_a_full_turn_distant_parts_overlap_and_neighbours_do_not(problem: Problem) -> None:
-    contact = contact_of(BELLOWS, solution(problem, rolled(problem, 1.2)))
-    assert contact.overlaps_itself
-    assert not contact.detected
+    found = contact(problem, rolled(problem, 1.2))
+    assert found.overlaps_itself
+    assert not found.detected

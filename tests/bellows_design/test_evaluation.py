@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from bellows_design import DesignError, load_design, with_overrides
-from bellows_design.analysis import Level
 from bellows_design.design import Design
 from bellows_design.evaluation import Evaluation, evaluate, refined, write_vtu
+from bellows_design.models import HALF
 from bellows_design.paper import TABLE_4
 
 TWO_BUBBLES = ("length=18", "offset=3", "number_of_bubbles=2")
@@ -98,6 +98,7 @@ def test_json_contract_is_kept(evaluation: Evaluation) -> None:
         "design",
         "digest",
         "model",
+        "model_reason",
         "pressure_mpa",
         "converged",
         "bending_angle_deg",
@@ -109,7 +110,9 @@ def test_json_contract_is_kept(evaluation: Evaluation) -> None:
         "mesh",
         "solver",
         "seconds",
+        "meshes",
         "path",
+        "curve",
         "versions",
     } <= set(content)
     assert set(content["contact"]) >= {"detected", "min_gap_mm"}
@@ -136,13 +139,13 @@ def test_vtu_holds_the_finest_solution(evaluation: Evaluation, tmp_path) -> None
 
 
 def test_accuracy_refines_until_the_estimate_keeps_it(monkeypatch: pytest.MonkeyPatch) -> None:
-    coarse_ladder = (Level(2.0, 0), Level(1.6, 0), Level(1.33, 0))
-    monkeypatch.setattr("bellows_design.analysis.LADDER", coarse_ladder)
-    single = short("number_of_bubbles=1", "length=11.5")
+    monkeypatch.setattr("bellows_design.evaluation.MOST_ELEMENTS", 6_500)
+    slim = ("bubble_width=12", "bubble_height=10", "tendon_width=8", "load.pressure=0.01")
+    single = short("number_of_bubbles=1", "length=11.5", *slim)
     rough = evaluate(single, accuracy_percent=100)
     fine = evaluate(single, accuracy_percent=0.01)  # below what is ever claimed
-    assert len(rough.solutions) == 2
-    assert len(fine.solutions) == 3
+    assert len(rough.solutions) == 2 < len(fine.solutions)
+    assert fine.solutions[-2].problem.mesh.tets.shape[0] * HALF.growth <= 6_500
     assert not fine.can_refine
 
 

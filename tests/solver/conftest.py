@@ -115,6 +115,40 @@ def bellows_mesh(bubbles: int = 4, refinement: int = 1) -> Mesh:
     return Mesh(mesh.nodes, mesh.tets, {new: mesh.surfaces[old] for old, new in names.items()})
 
 
+def bellows_cell_mesh() -> Mesh:
+    """Half of a bubble of ``bellows_mesh``, from its middle, x0, to the middle of the gap, x1."""
+    chamber, wall, gap = np.zeros((3, 2, 6), int)
+    for section in (chamber, wall, gap):
+        section[:, :3] = 1
+        section[0, 1] = 2  # the channel
+    wall[:, 3:] = chamber[:, 3:] = 1
+    chamber[0, 2:5] = 2
+    lines = [[0.4, 0.6, 0.4], [3.4, 0.6], [0.6, 1.0, 0.6, 2.0, 2.0, 0.6]]
+    return cell_mesh(np.stack([chamber, wall, gap]), [np.cumsum([0.0, *sizes]) for sizes in lines])
+
+
+def doubled_mesh(mesh: Mesh) -> Mesh:
+    """A mesh and its mirror image at its plane x1; the image of x0 becomes x1."""
+    seam, end = mesh.surface_nodes("x1"), mesh.nodes[:, 0].max()
+    image = np.arange(len(mesh.nodes)) + len(mesh.nodes)
+    image[seam] = seam
+    nodes = np.concatenate([mesh.nodes, mesh.nodes * [-1, 1, 1] + [2 * end, 0, 0]])
+    used = np.unique(np.concatenate([np.arange(len(mesh.nodes)), image]))
+    number = np.searchsorted(used, np.arange(len(nodes)))
+    tets = [mesh.tets, number[image[mesh.tets]][:, [1, 0, 2, 3, 4, 6, 5, 9, 8, 7]]]
+    images = {
+        name: number[image[triangles]][:, [0, 2, 1, 5, 4, 3]]
+        for name, triangles in mesh.surfaces.items()
+    }
+    surfaces = {
+        name: np.concatenate([triangles, images[name]])
+        for name, triangles in mesh.surfaces.items()
+        if name not in ("x0", "x1")
+    }
+    surfaces |= {"x0": mesh.surfaces["x0"], "x1": images["x0"]}
+    return Mesh(nodes[used], np.concatenate(tets), surfaces)
+
+
 def sphere_mesh(inner: float, outer: float, layers: int, divisions: int) -> Mesh:
     """Octant of a thick sphere with curved elements; surfaces inside, outside, x0, y0, z0."""
     n = divisions
@@ -150,6 +184,21 @@ def box() -> Callable[..., Mesh]:
 @pytest.fixture(scope="session")
 def bellows() -> Callable[..., Mesh]:
     return bellows_mesh
+
+
+@pytest.fixture(scope="session")
+def cells() -> Callable[..., Mesh]:
+    return cell_mesh
+
+
+@pytest.fixture(scope="session")
+def cell() -> Mesh:
+    return bellows_cell_mesh()
+
+
+@pytest.fixture(scope="session")
+def doubled() -> Callable[[Mesh], Mesh]:
+    return doubled_mesh
 
 
 @pytest.fixture(scope="session")

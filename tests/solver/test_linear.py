@@ -9,9 +9,10 @@ import pytest
 from scipy.sparse import csr_array
 
 from solver import Mesh, Ogden, Problem, Supports
-from solver.assembly import Assembly, State
+from solver.assembly import Assembly
 from solver.linear import LinearSolver, SingularMatrix, linear_solver
 from solver.sparsity import upper_pattern
+from solver.state import State
 
 
 def pardiso() -> LinearSolver:

@@ -106,5 +106,5 @@ def test_pressure_must_be_a_number(box: BoxMesh, ninjaflex: Ogden) -> None:
 
 
 def test_linear_solvers_have_names() -> None:
-    with pytest.raises(ValueError, match="must be auto, pardiso or superlu, got 'umfpack'"):
+    with pytest.raises(ValueError, match=r"must be one of auto, .*superlu, got 'umfpack'"):
         linear_solver("umfpack")
