@@ -162,6 +162,14 @@ class Series:
             [level.work.seconds_per_factorization for level in self.levels],
         )
 
+    @property
+    def solve_exponent(self) -> float | None:
+        """All seconds of solving up to a mesh grow with this power of its unknowns."""
+        return fitted_exponent(
+            [level.work.unknowns for level in self.levels],
+            [level.so_far.solve for level in self.levels],
+        )
+
     def to_dict(self) -> dict[str, Any]:
         """Plain values for JSON."""
         angle, stress = self.orders
@@ -175,6 +183,7 @@ class Series:
             "meshes": [self._row(number) for number in range(len(self.levels))],
             "orders": {"bending_angle": list(angle), "max_von_mises": list(stress)},
             "exponent": self.exponent,
+            "solve_exponent": self.solve_exponent,
         }
 
     def _row(self, number: int) -> dict[str, Any]:

@@ -260,6 +260,36 @@ def benchmark(
     answer(work, as_json)
 
 
+@app.command()
+def fit(
+    data: Annotated[
+        Path,
+        typer.Argument(metavar="CSV", help="Columns mode, stretch or strain, and stress_mpa."),
+    ],
+    model: Annotated[
+        str, typer.Option(help="best, neo-hooke, mooney-rivlin, ogden1, ogden2 or ogden3.")
+    ] = "best",
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", help="Also write a material as .toml.")
+    ] = None,
+    yield_strength: Annotated[
+        float | None, typer.Option(metavar="MPA", help="Yield strength of that material.")
+    ] = None,
+    plot: Annotated[
+        Path | None, typer.Option(help="Also draw the fit (.png); needs matplotlib.")
+    ] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Fit Ogden's rubber to measured stress over stretch."""
+
+    def work() -> Answer:
+        from bellows_design import fit_command
+
+        return fit_command.fit(data, model, output, yield_strength, plot)
+
+    answer(work, as_json)
+
+
 def _load(
     name: str, settings: list[str] | None, pressure: float | None = None, rename: bool = False
 ) -> Design:

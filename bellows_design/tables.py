@@ -178,6 +178,9 @@ def _findings(model: Mapping[str, Any]) -> list[str]:
     if model["exponent"] is not None:
         power = f"unknowns^{model['exponent']:.2f}"
         lines.append(f"{name}: the seconds per factorization grow as {power}.")
+    if model["solve_exponent"] is not None:
+        power = f"unknowns^{model['solve_exponent']:.2f}"
+        lines.append(f"{name}: all seconds of solving up to a mesh grow as {power}.")
     if model["note"]:
         label = "no finer mesh" if model["converged"] else "NOT CONVERGED"
         lines.append(f"{name}: {label}: {model['note']}")

@@ -162,9 +162,7 @@ class Newton:
 
     def __post_init__(self) -> None:
         self.assembly = Assembly(self.problem)
-        self.matrix: LinearSolver = quick_solver(
-            self.options.linear_solver, self.assembly.numbering.size
-        )
+        self.matrix: LinearSolver = quick_solver(self.options.linear_solver)
         self.matrix.analyze(self.assembly.pattern)
         self.move = motion_along(self.problem.mesh, self.problem.axis)
         self.trusted = trusted_nodes(self.problem)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import sys
 from collections.abc import Callable
 from dataclasses import replace
@@ -120,6 +121,10 @@ def test_the_growth_of_time_is_fitted_to_seconds_per_factorization() -> None:
     assert series(*LEVELS).exponent == pytest.approx(1.5)
     assert fitted_exponent([1.0, 10.0, 100.0], [1.0, 20.0, 100.0]) == pytest.approx(1.0)
     assert series(LEVELS[0]).exponent is None
+    assert series(LEVELS[0]).solve_exponent is None
+    grown = [replace(level(n, 0, 0), so_far=Stages(solve=float(n) ** 1.25)) for n in (1000, 3000)]
+    power = math.log(3**1.25) / math.log(grown[1].work.unknowns / grown[0].work.unknowns)
+    assert series(*grown).solve_exponent == pytest.approx(power)
     assert fitted_exponent([], []) is None
 
 

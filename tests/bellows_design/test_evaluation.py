@@ -169,7 +169,8 @@ def test_a_pressure_beyond_the_bounds_is_refused() -> None:
 
 def test_an_unreachable_pressure_ends_with_the_last_good_state() -> None:
     """A wall of silicone-soft rubber bursts: the solver says how far it came, never more."""
-    soft = short("material.mu=[0.2]", "material.alpha=[2.0]", "load.pressure=0.1")
+    single = ("number_of_bubbles=1", "length=11.5")
+    soft = short(*single, "material.mu=[0.2]", "material.alpha=[2.0]", "load.pressure=0.1")
     result = evaluate(soft)
     assert not result.converged
     assert "stopped at" in result.message
@@ -185,7 +186,7 @@ AGREEMENT_PERCENT = {
     "tendon width 6": 8,
     "inner fillet 1": 5,
     # stands apart in every reading of the geometry: see "Against the paper" in the README
-    "bubble height 16": 10,
+    "bubble height 16": 12,
 }
 
 

@@ -1,0 +1,131 @@
+"""``bellows fit``: from a table of measurements to a material a design can use."""
+
+from __future__ import annotations
+
+import math
+import re
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+from bellows_design.atomic import replacing
+from bellows_design.errors import DesignError, quoted, sentences
+from bellows_design.fit_report import fit_content, fit_table
+from bellows_design.fitting import BEST, Fit
+from bellows_design.fitting import fit as fit_measurements
+from bellows_design.materials import Material
+from bellows_design.measurements import Measurements, load_measurements
+from bellows_design.terminal import DONE, REFUSED, Answer
+
+
+def fit(
+    data: Path,
+    model: str = BEST,
+    output: Path | None = None,
+    yield_strength: float | None = None,
+    plot: Path | None = None,
+) -> Answer:
+    """Fit ``model`` to the measurements in ``data``; write a material and a plot if asked.
+
+    ``yield_strength`` in MPa goes into the material, which cannot do without: it decides what is
+    approved, and these tests do not tell it. Exit status 1, and no material, if the fit cannot be
+    one. Raises ``DesignError`` for bad input, before anything is computed where possible.
+    """
+    _check(output, yield_strength, plot)
+    measurements = load_measurements(data)
+    choice = fit_measurements(measurements, model)
+    content = fit_content(measurements, model, choice)
+    material, refused = _material(measurements, choice.fit, output, yield_strength)
+    if output is not None and material is not None:
+        write_material(material, measurements.valid_strain, output)
+        content["material_file"] = str(output)
+    if plot is not None:
+        from bellows_design.fit_picture import plot_fit
+
+        plot_fit(measurements, choice.fit, plot)
+        content["plot_file"] = str(plot)
+    content["refused"] = refused
+    return Answer(content, fit_table(content), DONE if refused is None else REFUSED)
+
+
+def write_material(material: Material, valid_strain: tuple[float, float], path: Path) -> None:
+    """Write ``material`` as TOML, in the form of the library's; completely or not at all.
+
+    The range of principal nominal strains it was fitted over stands in a comment.
+    """
+    import tomli_w
+
+    table = tomli_w.dumps(material.model_dump(mode="json", exclude_none=True))
+    low, high = valid_strain
+    text = f"# valid_strain = [{low:.4g}, {high:.4g}]  # principal nominal strains of the tests\n"
+    with replacing(path) as temporary:
+        temporary.write_text(text + table, "utf-8")
+
+
+def _material(
+    data: Measurements, fit: Fit, output: Path | None, yield_strength: float | None
+) -> tuple[Material | None, str | None]:
+    """The fitted material, if one is wanted and the fit can be one, and why it cannot."""
+    if fit.vanished or not fit.stable:
+        what = "is unstable" if not fit.stable else "has a term that adds nothing"
+        return None, f"{fit.model} {what}; a design takes no such material."
+    if output is None or yield_strength is None:
+        return None, None
+    table = {
+        "name": _name(output),
+        "mu": [float(f"{value:.9g}") for value in fit.mu],
+        "alpha": [float(f"{value:.9g}") for value in fit.alpha],
+        "yield_strength": yield_strength,
+        "source": _source(data, fit),
+    }
+    return _validated(table), None
+
+
+def _validated(table: dict[str, Any]) -> Material:
+    try:
+        return Material.model_validate(table)
+    except ValidationError as error:
+        raise DesignError(*sentences(error, Material)) from None
+
+
+def _name(output: Path) -> str:
+    return re.sub(r"[^A-Za-z0-9_-]+", "_", output.stem).strip("_-")[:64] or "fitted"
+
+
+def _source(data: Measurements, fit: Fit) -> str:
+    low, high = data.valid_strain
+    open_ones = "" if fit.determined else " NOT DETERMINED by these tests: see the intervals."
+    return (
+        f"fit of {fit.model} to {quoted(data.name)}: {fit.points} points, {', '.join(data.modes)}; "
+        f"R² {fit.r_squared:.5f}, largest error {fit.misfit.error:.3g} MPa; principal nominal "
+        f"strains from {low:.3g} to {high:.3g}; yield strength as given.{open_ones}"
+    )
+
+
+def _check(output: Path | None, yield_strength: float | None, plot: Path | None) -> None:
+    if output is not None:
+        _require_place(output, ".toml")
+        if yield_strength is None:
+            raise DesignError(
+                "a material needs a yield strength in MPa, which these tests do not tell; "
+                "give it with --yield-strength."
+            )
+    if yield_strength is not None and not 0.01 <= yield_strength <= 200:
+        shown = f"{yield_strength:g}" if math.isfinite(yield_strength) else str(yield_strength)
+        raise DesignError(f"--yield-strength is {shown} MPa but must lie between 0.01 and 200 MPa.")
+    if plot is not None:
+        from bellows_design.plots import require_matplotlib
+
+        _require_place(plot, ".png")
+        require_matplotlib()
+
+
+def _require_place(path: Path, suffix: str) -> None:
+    """Refuse a file that cannot be written or whose name does not end in ``suffix``."""
+    if path.suffix.lower() != suffix:
+        raise DesignError(f"{quoted(str(path))} must end in {suffix}.")
+    if not path.parent.is_dir():
+        raise DesignError(f"there is no folder {quoted(str(path.parent))} to write to.")
+    if path.is_dir():
+        raise DesignError(f"{quoted(str(path))} is a folder, not a file to write.")
