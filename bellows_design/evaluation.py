@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 SILENCE = Silence()
 
-LEAST_ANGLE_ERROR, LEAST_STRESS_ERROR, ENDS_ERROR = 0.005, 0.02, 0.15
+LEAST_ANGLE_ERROR, LEAST_STRESS_ERROR, ENDS_ERROR, TWO_MESHES = 0.005, 0.02, 0.15, 2.0
 """Floors and factors of the error estimates; see ``Evaluation.error_estimate``."""
 
 MOST_ELEMENTS = 60_000
@@ -174,7 +174,8 @@ class Evaluation:
         """From the difference between the last two meshes, in percent of the finest.
 
         That difference is about the error of the coarser one, so for the angle it is a careful
-        guess at the finer one's; what the ends add is known to 15 % (a short actuator of two
+        guess at the finer one's; but the first mesh is so coarse that all of it counts twice as
+        long as there are only two. What the ends add is known to 15 % (a short actuator of two
         bubbles instead of one moves it by that much). The stress takes half of the difference, or
         how much the elements around its place disagree if that is more. Two meshes can agree by
         chance, and the bubbles next to the ends are stressed a little more (4 % on Prototype 1):
@@ -187,7 +188,9 @@ class Evaluation:
         angle = self.bending_angle_deg
         change = abs(angle - self._reading(coarse.path[-1]).bending_angle_deg)
         ends, _ = self._added_by_ends(fine.path[-1])
-        angle_error = max(change, LEAST_ANGLE_ERROR * abs(angle)) + ENDS_ERROR * abs(ends)
+        careful = TWO_MESHES if len(self.solutions) == 2 else 1.0
+        angle_error = careful * max(change, LEAST_ANGLE_ERROR * abs(angle))
+        angle_error += ENDS_ERROR * abs(ends)
         stress_error = max(
             abs(before.value - peak.value) / 2, peak.scatter, LEAST_STRESS_ERROR * peak.value
         )
