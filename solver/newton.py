@@ -203,7 +203,13 @@ class Newton:
         return self.solve(-equilibrium.residual)
 
     def verified(self, state: State, load: float, iterations: int, guess: State) -> Attempt:
-        """Accept a converged state only if no element of it is turned inside out."""
+        """Accept a converged state only if it is stable and no element is turned inside out.
+
+        Stable means that the tangent has one negative pivot for each pressure unknown and no
+        more: the equilibrium is a minimum of energy among all incompressible neighbours.
+        """
+        if self.matrix.negative_pivots not in (None, len(self.problem.mesh.vertices)):
+            return Attempt(guess, iterations, "the equilibrium would be unstable")
         equilibrium = self.assembly.evaluate(state, load * self.pressure, tangent=False)
         if equilibrium.admissible:
             return Attempt(state, iterations, force=equilibrium.force)

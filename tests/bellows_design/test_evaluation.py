@@ -9,10 +9,12 @@ import numpy as np
 import pytest
 
 from bellows_design import DesignError, load_design, with_overrides
+from bellows_design.analysis import first_mesh
 from bellows_design.design import Design
 from bellows_design.evaluation import Evaluation, evaluate, refined, write_vtu
-from bellows_design.models import HALF
+from bellows_design.models import HALF, UNIT_CELL
 from bellows_design.paper import TABLE_4
+from solver import solve
 
 TWO_BUBBLES = ("length=18", "offset=3", "number_of_bubbles=2")
 
@@ -177,6 +179,28 @@ def test_an_unreachable_pressure_ends_with_the_last_good_state() -> None:
     assert 0 < result.pressure_mpa < 0.1
     assert result.error_estimate.bending_angle_percent is None
     assert np.isfinite(result.finest.displacement).all()
+
+
+def test_a_wide_thin_bubble_is_loaded_along_stable_states_only() -> None:
+    """Its walls have unstable equilibria too, with three times the stress: Newton finds them."""
+    wide = with_overrides(
+        load_design("prototype_1"),
+        [
+            "bubble_width=24.65", "bubble_height=24.28", "bubble_thickness=1.23",
+            "tendon_width=15.61", "tendon_height=5.92", "tendon_thickness=2.24",
+            "chamber_length=2.94", "bubble_distance=2.17", "inner_fillet=0.61",
+            "outer_fillet=1.44", "length=60", "load.pressure=0.05",
+        ],
+    )  # fmt: skip
+    coarse = UNIT_CELL.problem(wide, first_mesh(UNIT_CELL.solid(wide), wide))
+    solution = solve(coarse, wide.load.pressure)
+    assert solution.converged, solution.message
+    assert solution.negative_pivots in (None, len(coarse.mesh.vertices))
+    angles, stresses = (
+        [getattr(p, of) for p in solution.path] for of in ("rotation", "max_von_mises")
+    )
+    assert np.all(np.diff(angles) > 0) and np.all(np.diff(stresses) > 0)
+    assert stresses[-1] < 3
 
 
 AGREEMENT_PERCENT = {
