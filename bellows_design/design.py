@@ -24,6 +24,11 @@ from bellows_design.parameters import BellowsParameters, Indent, Parameters, Por
 LARGEST_FILE = 1_000_000
 """Bytes. No design is longer; a larger file was named by mistake."""
 
+MOST_DOTS = 100
+"""In a line, outside of quoted text: reading a key takes time as the square of its parts."""
+
+_QUOTED_TEXT = re.compile(r"""\"(?:[^"\\]|\\.?)*+\"?|'[^']*+'?""")
+
 _SLUG = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_-]{0,63}")
 _WINDOWS_DEVICE = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)", re.IGNORECASE)
 _LABELS = {"name": True, "description": True, "material": {"name", "source"}}
@@ -77,7 +82,7 @@ class Design(Parameters):
     printer: str = Field(default="prusa_i3", description="name of a printer profile")
     limits: Limits = Field(default_factory=Limits)
 
-    def __init__(self, **data: Any) -> None:
+    def __init__(self, /, **data: Any) -> None:  # "self" may be a key of the file
         try:
             super().__init__(**data)
         except ValidationError as error:
@@ -210,11 +215,22 @@ def _not_found(given: str, path: Path) -> str:
 
 def _parsed(text: str) -> dict[str, Any]:
     try:
-        return tomllib.loads(text)
+        return parse_toml(text)
     except RecursionError:
         raise DesignError("the design is nested too deeply to be read.") from None
     except ValueError as error:  # malformed TOML, or an integer with thousands of digits
         raise DesignError(f"the design is not valid TOML: {quoted_reason(error)}.") from None
+
+
+def parse_toml(text: str) -> dict[str, Any]:
+    """``text`` as a table, soon. Raises ``RecursionError`` or ``ValueError``."""
+    one_line_each = '"""' not in text and "'''" not in text
+    for line in text.split("\n"):
+        if line.count(".") > MOST_DOTS:
+            bare = _QUOTED_TEXT.sub("", line) if one_line_each else line
+            if bare.count(".") > MOST_DOTS:
+                raise ValueError(f"a line has more than {MOST_DOTS} dots")
+    return tomllib.loads(text)
 
 
 def quoted_reason(error: Exception) -> str:

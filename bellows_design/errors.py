@@ -36,6 +36,8 @@ _LOOKALIKES = {
 
 _LONGEST_QUOTE = 60
 _MOST_NAMED = 13
+_MOST_PROBLEMS = 20
+_LONGEST_COMPARED = 200
 
 
 class DesignError(ValueError):
@@ -49,12 +51,15 @@ class DesignError(ValueError):
 def sentences(error: ValidationError, model: type[BaseModel]) -> tuple[str, ...]:
     """The problems pydantic found in ``model``'s input, each as one sentence."""
     details = error.errors(include_url=False)
-    return tuple(dict.fromkeys(_sentence(detail, model) for detail in details))
+    found = [text for detail in details[:_MOST_PROBLEMS] for text in _told_by(detail, model)]
+    more = len(details) - _MOST_PROBLEMS
+    return (*dict.fromkeys(found), *([f"and {more} more problems."] if more > 0 else []))
 
 
 def quoted(value: object) -> str:
     """``value`` as it may stand in a message: printable, on one line, not longer than 60 signs."""
-    text = value if isinstance(value, str) else repr(value)
+    text = value if isinstance(value, str) else _represented(value)
+    text = text[: _LONGEST_QUOTE + 1]
     text = "".join(sign if sign.isprintable() else "?" for sign in text)
     text = text if len(text) <= _LONGEST_QUOTE else text[: _LONGEST_QUOTE - 1] + "…"
     return f"“{text}”" if isinstance(value, str) else text
@@ -66,6 +71,7 @@ def did_you_mean(unknown: str, known: Iterable[str]) -> str:
     A dotted word is also compared by its last part: ``pressure`` finds ``load.pressure``.
     """
     words = list(known)
+    unknown = unknown[:_LONGEST_COMPARED]
     last = unknown.rsplit(".", 1)[-1]
     by_part = {word.rsplit(".", 1)[-1]: word for word in reversed(words)}
     close = difflib.get_close_matches(unknown, words, n=3, cutoff=0.6)
@@ -74,6 +80,19 @@ def did_you_mean(unknown: str, known: Iterable[str]) -> str:
         return f"; did you mean {' or '.join(dict.fromkeys(close))}?"
     more = f" and {len(words) - _MOST_NAMED} more" if len(words) > _MOST_NAMED else ""
     return f"; known are {', '.join(words[:_MOST_NAMED])}{more}."
+
+
+def _represented(value: object) -> str:
+    try:
+        return repr(value)
+    except (ValueError, RecursionError):  # 4300 digits, 1000 levels
+        return "a huge number" if isinstance(value, int) else "too much to show"
+
+
+def _told_by(detail: Mapping[str, Any], model: type[BaseModel]) -> tuple[str, ...]:
+    """The sentences of one problem: several where a model inside raised them already."""
+    inner = detail.get("ctx", {}).get("error")
+    return inner.sentences if isinstance(inner, DesignError) else (_sentence(detail, model),)
 
 
 def _sentence(detail: Mapping[str, Any], model: type[BaseModel]) -> str:
@@ -170,7 +189,9 @@ def _told(field: FieldInfo | None, unit: str | None) -> str:
 def _number(value: object, unit: str | None) -> str:
     if isinstance(value, float) and not math.isfinite(value):
         return str(value)
-    return f"{value:g}{_unit(unit)}" if isinstance(value, float) else f"{value}{_unit(unit)}"
+    return (
+        f"{value:g}{_unit(unit)}" if isinstance(value, float) else f"{quoted(value)}{_unit(unit)}"
+    )
 
 
 def _unit(unit: str | None) -> str:

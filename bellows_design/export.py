@@ -60,6 +60,7 @@ def require_place(name: str, output_root: Path) -> None:
 
     Worth asking before the long computation that an export follows.
     """
+    _require_plain(name)
     if output_root.exists() and not output_root.is_dir():
         raise DesignError(f"{quoted(str(output_root))} is a file, not a folder for exports.")
     _require_ours(output_root / name)
@@ -71,6 +72,7 @@ def withdraw(name: str, output_root: Path) -> Path | None:
     Removes the manifest first and then the files it lists, so that a half-done withdrawal is
     never mistaken for an export; files of others stay where they are.
     """
+    _require_plain(name)
     folder = output_root / name
     listed = _listed_files(folder)
     if listed is None:
@@ -158,14 +160,25 @@ def _require_ours(folder: Path) -> None:
 
 def _listed_files(folder: Path) -> tuple[str, ...] | None:
     """Plain file names that the manifest of ours in ``folder`` lists; None without such a one."""
-    if folder.is_symlink() or not folder.is_dir():
+    if folder.is_symlink() or not (folder / MANIFEST).is_file():
         return None
     try:
         manifest = json.loads((folder / MANIFEST).read_text("utf-8"))
-    except (OSError, ValueError):
+    except (OSError, ValueError, RecursionError):
         return None
     if not isinstance(manifest, dict) or manifest.get("format") != MANIFEST_FORMAT:
         return None
     files = manifest.get("files")
     names = files if isinstance(files, dict) else {}
-    return tuple(name for name in names if name == Path(name).name and name not in ("", "..", "."))
+    return tuple(name for name in names if _is_plain(name))
+
+
+def _is_plain(name: str) -> bool:
+    """True if ``name`` leads to a place right in a folder: no way out, no way further in."""
+    return name == Path(name).name and name not in ("", "..", ".") and "\0" not in name
+
+
+def _require_plain(name: str) -> None:
+    """Refuse names that lead out; those of designs never do, unless made without their checks."""
+    if not _is_plain(name):
+        raise DesignError(f"{quoted(name)} is no name of a folder in the output folder.")

@@ -7,13 +7,12 @@ as in TOML (text also without its quotes), or ``none`` where a field may be abse
 from __future__ import annotations
 
 import re
-import tomllib
 from collections.abc import Iterable, Iterator
 from typing import Any
 
 from pydantic import BaseModel
 
-from bellows_design.design import Design, quoted_reason
+from bellows_design.design import Design, parse_toml, quoted_reason
 from bellows_design.errors import DesignError, did_you_mean, nested_model, quoted
 from bellows_design.parameters import BellowsParameters
 
@@ -87,7 +86,7 @@ def _value(key: str, text: str) -> Any:
     if _WORD.fullmatch(text) and text not in _TOML_WORDS:
         return text
     try:
-        table = tomllib.loads(f"value = {text}")
+        table = parse_toml(f"value = {text}")
     except (ValueError, RecursionError) as error:
         raise DesignError(
             f"{key} cannot be set to {quoted(text)}: {quoted_reason(error)}."

@@ -18,6 +18,14 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_valida
 
 ENTRY_POINT_GROUP = "bellows_design.printers"
 
+LARGEST_FILE = 1_000_000
+"""Bytes. No profile is longer; a larger file was named by mistake."""
+
+MOST_DOTS = 100
+"""In a line. The time that TOML takes to read grows with the square of a dotted key's parts."""
+
+_LONGEST_QUOTE = 200
+
 Percent = Annotated[float, Field(ge=0, le=100)]
 Celsius = Annotated[float, Field(ge=0, le=500)]
 Side = Annotated[float, Field(ge=20, le=2000)]
@@ -28,7 +36,7 @@ class _Record(BaseModel):
 
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
 
-    def __init__(self, **data: Any) -> None:
+    def __init__(self, /, **data: Any) -> None:  # "self" may be a key of the file
         try:
             super().__init__(**data)
         except ValidationError as error:
@@ -143,7 +151,8 @@ def load_profile(name_or_path: str | Path) -> PrinterProfile:
     known = {**_third_party(), **_toml_files(files("printers") / "profiles")}
     if name_or_path not in known:
         raise ValueError(
-            f"there is no printer profile {name_or_path!r}; known: {', '.join(sorted(known))}"
+            f"there is no printer profile {_quoted(name_or_path)}; "
+            f"known: {', '.join(sorted(known))}"
         )
     return _read(known[name_or_path], name_or_path)
 
@@ -171,30 +180,56 @@ def _third_party() -> dict[str, Traversable]:
 
 
 def _read(source: Traversable | Path, shown: str) -> PrinterProfile:
+    name = _quoted(shown)
     try:
-        table = tomllib.loads(source.read_text(encoding="utf-8"))
+        table = _parsed(source)
     except FileNotFoundError:
-        raise ValueError(f"there is no printer profile file {shown!r}") from None
-    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
-        raise ValueError(f"printer profile {shown!r} cannot be read: {error}") from None
+        raise ValueError(f"there is no printer profile file {name}") from None
+    except (OSError, ValueError, RecursionError) as error:
+        reason = getattr(error, "strerror", None) or _cut(str(error))
+        raise ValueError(f"printer profile {name} cannot be read: {reason}") from None
     try:
         return PrinterProfile(**table)
     except ValueError as error:
-        raise ValueError(f"printer profile {shown!r}: {error}") from None
+        raise ValueError(f"printer profile {name}: {error}") from None
+
+
+def _parsed(source: Traversable | Path) -> dict[str, Any]:
+    if isinstance(source, Path) and source.exists() and not source.is_dir():
+        if not source.is_file():  # a pipe would keep us waiting
+            raise ValueError("it is no file")
+        if source.stat().st_size > LARGEST_FILE:
+            raise ValueError("it is larger than 1 MB")
+    text = source.read_text(encoding="utf-8")
+    if any(line.count(".") > MOST_DOTS for line in text.split("\n")):
+        raise ValueError(f"it has a line with more than {MOST_DOTS} dots")
+    return tomllib.loads(text)
+
+
+def _quoted(value: object) -> str:
+    """``value`` as it may stand in a message: on one line and not too long."""
+    try:
+        return _cut(repr(value))
+    except (ValueError, RecursionError):  # 4300 digits, 1000 levels
+        return "a huge number" if isinstance(value, int) else "too much to show"
+
+
+def _cut(text: str) -> str:
+    return text if len(text) <= _LONGEST_QUOTE else text[: _LONGEST_QUOTE - 1] + "…"
 
 
 def _one_sentence(error: ValidationError, record: type[BaseModel]) -> str:
     first = error.errors()[0]
     key = ".".join(str(step) for step in first["loc"])
     if first["type"] == "extra_forbidden":
-        return f"unknown key {key!r}; known: {', '.join(record.model_fields)}"
+        return f"unknown key {_quoted(key)}; known: {', '.join(record.model_fields)}"
     if first["type"] == "missing":
         return f"key {key!r} is missing"
     text = first["msg"].removeprefix("Value error, ")
     if first["type"] == "value_error":  # a sentence of our own, complete in itself
         return f"{key}: {text}" if key else text
     given = first["input"]
-    shown = f"{given:g}" if isinstance(given, float) else repr(given)
+    shown = f"{given:g}" if isinstance(given, float) else _quoted(given)
     return f"{key} is {shown}{_unit(key)}; {text[0].lower()}{text[1:]}"
 
 
