@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Iterator
+from contextlib import suppress
 from importlib.metadata import entry_points
 from importlib.resources import files
 from importlib.resources.abc import Traversable
@@ -54,6 +55,13 @@ class Material(Parameters):
     @classmethod
     def _list_is_tuple(cls, value: Any) -> Any:
         return tuple(value) if isinstance(value, list) else value
+
+    @field_validator("name", "source")
+    @classmethod
+    def _is_printable(cls, text: str) -> str:
+        if not text.isprintable():
+            raise ValueError(f"{quoted(text)} must be printable text on one line")
+        return text
 
     @model_validator(mode="after")
     def _is_stable(self) -> Self:
@@ -101,6 +109,9 @@ def load_material(name: str) -> Material:
         return Material.model_validate(tomllib.loads(library[name].read_text("utf-8")))
     except ValidationError as error:
         raise DesignError(*sentences(error, Material)) from None
+    except (ValueError, RecursionError, OSError) as error:
+        text = " ".join(str(error).split())
+        raise DesignError(f"material {quoted(name)} cannot be read: {text[:200]}.") from None
 
 
 def material_names() -> tuple[str, ...]:
@@ -109,9 +120,13 @@ def material_names() -> tuple[str, ...]:
 
 
 def _library() -> Iterator[tuple[str, Traversable]]:
-    """(name, file) of every material; the shipped ones come first and win."""
+    """(name, file) of every material; the shipped ones come first and win.
+
+    A package that is named by an entry point but gone has none; the others keep theirs.
+    """
     packages = [__name__, *(entry.module for entry in entry_points(group=ENTRY_POINTS))]
     for package in packages:
-        for file in files(package).iterdir():
-            if file.name.endswith(".toml"):
-                yield file.name.removesuffix(".toml"), file
+        with suppress(ImportError):
+            for file in files(package).iterdir():
+                if file.name.endswith(".toml"):
+                    yield file.name.removesuffix(".toml"), file

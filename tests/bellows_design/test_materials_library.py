@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import re
 import tomllib
+from importlib.metadata import EntryPoint
 from importlib.resources import files
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from bellows_design.design import Design, load_design
+from bellows_design.errors import DesignError
 from bellows_design.homogeneous import UNIAXIAL, nominal_stress
-from bellows_design.materials import load_material, material_names
+from bellows_design.materials import ENTRY_POINTS, Material, load_material, material_names
 from bellows_design.stability import stability
 
 RANGE = re.compile(r"valid_strain = \[(-[0-9.]+), ([0-9.]+)\]")
@@ -84,3 +87,25 @@ def test_silicones_are_within_a_third_of_the_data_sheets_modulus_at_100_percent(
     material = load_material(name)
     ours = nominal_stress(UNIAXIAL, np.array([2.0]), material.mu, material.alpha)[0]
     assert 2 / 3 * modulus < ours < modulus * 4 / 3
+
+
+@pytest.mark.parametrize("content", [b"mu = ", b"\xff\xfe", b"mu = [1]\nmu = [2]"])
+def test_a_broken_file_of_another_package_is_named_in_one_sentence(
+    content: bytes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "labmat").mkdir()
+    (tmp_path / "labmat/__init__.py").touch()
+    (tmp_path / "labmat/foam.toml").write_bytes(content)
+    monkeypatch.syspath_prepend(tmp_path)
+    entries = [EntryPoint("lab", module, ENTRY_POINTS) for module in ("labmat", "gone_package")]
+    monkeypatch.setattr("bellows_design.materials.entry_points", lambda group: entries)
+    with pytest.raises(DesignError, match=r"foam.* cannot be read"):
+        load_material("foam")
+    assert load_material("ninjaflex").mu
+
+
+@pytest.mark.parametrize("key", ["name", "source"])
+def test_texts_of_a_material_stay_on_one_line(key: str) -> None:
+    content = load_material("ninjaflex").model_dump() | {key: "a\nb\x1b[2J"}
+    with pytest.raises(ValueError, match="printable text on one line"):
+        Material.model_validate(content)
