@@ -13,11 +13,12 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from solver.interpolation import transfer
+    from solver.loading import solve
     from solver.materials import Ogden
     from solver.mesh import Mesh
     from solver.models import Problem, SlenderAxis, Supports
     from solver.motion import rotation
-    from solver.newton import Event, SolverOptions, solve
+    from solver.newton import Event, SolverOptions
     from solver.results import PathPoint, Solution, cavity_volume, write_vtu
     from solver.stress import Peak, nodal_cauchy, nodal_von_mises, peak_von_mises
 
@@ -26,7 +27,8 @@ _MODULES = {
     "mesh": ("Mesh",),
     "models": ("Problem", "SlenderAxis", "Supports"),
     "motion": ("rotation",),
-    "newton": ("Event", "SolverOptions", "solve"),
+    "newton": ("Event", "SolverOptions"),
+    "loading": ("solve",),
     "results": ("PathPoint", "Solution", "cavity_volume", "write_vtu"),
     "stress": ("Peak", "nodal_cauchy", "nodal_von_mises", "peak_von_mises"),
     "interpolation": ("transfer",),
