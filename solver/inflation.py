@@ -6,6 +6,7 @@ volume still does.
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -75,7 +76,7 @@ def _to(newton: Newton, target: float, leg: _Leg) -> _Leg:
     points: tuple[PathPoint, ...] = ()
     while volume != target:
         last = abs(target - volume) <= step * (1 + 1e-9)
-        wanted = target if last else volume + np.copysign(step, target - volume)
+        wanted = target if last else volume + math.copysign(step, target - volume)
         found = _step(newton, reached, volume, wanted)
         if found.failure:
             newton.effort.refused_steps += 1

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Sequence
 from dataclasses import astuple, dataclass
@@ -164,7 +165,7 @@ def _walk_to(newton: Newton, end: float, leg: Leg, path: tuple[PathPoint, ...] =
     direction = newton.direction(reached.rate)
     while load != end:
         last = abs(end - load) <= step * (1 + 1e-9)
-        target = end if last else load + np.copysign(step, end - load)
+        target = end if last else load + math.copysign(step, end - load)
         guess = newton.predicted(reached.state, direction, load, target)
         attempt = newton.correct(
             guess, target, options.tolerance if last else options.loose_tolerance

@@ -119,6 +119,17 @@ def test_a_state_on_a_distant_branch_is_not_passed_off_as_the_way_up(sphere: Mes
     assert solution.limit == pytest.approx(0.0523, rel=0.02)
 
 
+def test_the_bubbles_of_a_bellows_balloon_at_a_limit_too(cell: Mesh, ninjaflex: Ogden) -> None:
+    """Walked by load and traced by arc length, with a moving plane: the same limit."""
+    middles = Supports(symmetry={"x0": 0, "y0": 1})
+    problem = Problem(cell, ninjaflex, middles, ("cavity",), moving_plane="x1")
+    walked = solve(problem, 1.0)
+    traced = trace(problem, 1.0, steps=12, until=lambda point: point.stable is False)
+    assert not walked.converged and walked.limit is not None
+    assert traced.limits[0].point.pressure == pytest.approx(walked.limit, rel=1e-3)
+    assert walked.pressure == pytest.approx(walked.limit, rel=0.01)
+
+
 def test_a_compressed_strip_loses_its_stability_at_eulers_load(box: Meshes) -> None:
     """Plane strain: E I = mu h^3 / 3 per depth; held against turning at one end, free at the other.
 
