@@ -45,7 +45,7 @@ def inflate(
     newton = Newton(problem, 1.0, options or SolverOptions(), listener)
     newton.sharpen()
     leg = _Leg(station(newton, State.zero(problem), 0.0), _volume(newton, State.zero(problem)))
-    path: tuple[PathPoint, ...] = (newton.point(leg.reached.state, 0.0, 0),)
+    path: tuple[PathPoint, ...] = (newton.point(leg.reached.state, 0.0, 0, True),)
     leg = replace(leg, step=newton.options.first_step * abs(volume - leg.volume))
     for target in _targets(leg.volume, volume, stops):
         leg = _to(newton, target, leg)

@@ -85,14 +85,16 @@ def _jump(newton: Newton, initial: State, stops: tuple[float, ...]) -> Walk | No
         newton.notify("refused", 1.0, initial, attempt.iterations, np.inf)
         return None
     newton.effort.load_steps += 1
-    points: tuple[PathPoint, ...] = (newton.point(attempt.state, 1.0, attempt.iterations),)
+    points: tuple[PathPoint, ...] = (
+        newton.point(attempt.state, 1.0, attempt.iterations, newton.stable),
+    )
     leg = Leg(attempt, 1.0, 1.0)
     for stop in reversed(stops):
         leg = _walk_to(newton, stop, leg)
         if leg.failure:
             return None
         points = (*reversed(leg.points), *points)
-    return Walk(attempt.state, (newton.point(State.zero(newton.problem), 0.0, 0), *points))
+    return Walk(attempt.state, (newton.point(State.zero(newton.problem), 0.0, 0, True), *points))
 
 
 @dataclass(frozen=True)
@@ -112,7 +114,9 @@ def _from_zero(newton: Newton) -> tuple[Leg, tuple[PathPoint, ...]]:
     equilibrium = newton.evaluate(zero, 0.0)
     newton.factorize(equilibrium, zero, 0.0)
     attempt = Attempt(zero, 0, rate=newton.rate(zero, 0.0, equilibrium))
-    return Leg(attempt, 0.0, newton.options.first_step), (newton.point(zero, 0.0, 0),)
+    return Leg(attempt, 0.0, newton.options.first_step), (
+        newton.point(zero, 0.0, 0, newton.stable),
+    )
 
 
 def _resumed(newton: Newton, checkpoint: Checkpoint) -> tuple[Leg, tuple[PathPoint, ...]]:
@@ -182,7 +186,7 @@ def _walk_to(newton: Newton, end: float, leg: Leg, path: tuple[PathPoint, ...] =
             continue
         step = max(step, options.growth * abs(target - load))
         reached, load = attempt, target
-        points += (newton.point(attempt.state, load, attempt.iterations),)
+        points += (newton.point(attempt.state, load, attempt.iterations, newton.stable),)
         newton.effort.load_steps += 1
         _report(newton, attempt.state, load, step, (*path, *points))
         if load != end:

@@ -181,9 +181,16 @@ class Newton:
 
     @property
     def unstable_modes(self) -> int | None:
-        """Negative pivots of the last tangent beyond one for each pressure; None if unknown."""
-        negative = self.matrix.negative_pivots
-        return None if negative is None else abs(negative - len(self.problem.mesh.vertices))
+        """In how many ways the last factorized tangent gives way; None if unknown.
+
+        Negative eigenvalues beyond one for each pressure. Where only their parity is known, a
+        wrong one counts as one, and a right one as unknown.
+        """
+        pressures, negative = len(self.problem.mesh.vertices), self.matrix.negative_pivots
+        if negative is not None:
+            return abs(negative - pressures)
+        odd = self.matrix.odd_negative
+        return None if odd is None or odd == (pressures % 2 == 1) else 1
 
     @property
     def stable(self) -> bool | None:
@@ -273,10 +280,8 @@ class Newton:
             return float(np.degrees(state.plane[0]))
         return rotation(self.problem.mesh, state.displacement)
 
-    def point(
-        self, state: State, load: float, iterations: int, stable: bool | None = True
-    ) -> PathPoint:
-        """Describe an equilibrium; it is stable unless told otherwise (``verified``)."""
+    def point(self, state: State, load: float, iterations: int, stable: bool | None) -> PathPoint:
+        """Describe an equilibrium."""
         stress = von_mises(deviatoric_at_nodes(self.problem, state.displacement))
         highest = float(stress[self.trusted].max(initial=0.0))
         volume = enclosed_volume(self.problem.mesh, state.displacement, self.problem.pressurised)

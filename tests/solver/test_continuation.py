@@ -106,6 +106,17 @@ def test_a_pressure_beyond_the_limit_is_reported_as_such(ball: Problem) -> None:
     assert solution.stable and solution.pressure < solution.limit
 
 
+def test_without_inertia_the_determinant_still_tells_an_unstable_state(ball: Problem) -> None:
+    """SuperLU knows the sign of the determinant only: enough for one unstable mode."""
+    options = SolverOptions(linear_solver="superlu")
+    path = trace(ball, 1.0, options, until=lambda point: stretch_at(point.volume) > 1.6)
+    peak = path.points.index(path.limits[0].point)
+    assert all(point.stable is None for point in path.points[:peak])
+    assert all(point.stable is False for point in path.points[peak + 1 :])
+    beyond = solve(ball, 1.5, options)
+    assert not beyond.converged and beyond.limit == pytest.approx(MAXIMUM["P"], rel=3e-3)
+
+
 def test_a_pressure_within_the_limit_mentions_none(ball: Problem) -> None:
     solution = solve(ball, 0.9)
     assert solution.converged and solution.stable and solution.limit is None
