@@ -54,8 +54,17 @@ def inflate(
             break
     solution = solution_of(newton, Walk(leg.reached.state, path, leg.failure), 0.0)
     share = f"{leg.volume:.6g} of {volume:.6g} mm³, at {leg.reached.load:.4g} MPa"
-    told = f"stopped at {share}: {leg.failure}." if leg.failure else f"reached {share}."
+    told = f"stopped at {share}: {leg.failure}" if leg.failure else f"reached {share}"
+    told += _stability(path)
     return replace(solution, message=told, load=1.0, seconds=time.perf_counter() - start)
+
+
+def _stability(path: tuple[PathPoint, ...]) -> str:
+    """Up to where the body would have stayed under a pressure that is held."""
+    lost = next((number for number, point in enumerate(path) if point.stable is False), None)
+    if lost is None:
+        return "."
+    return f"; a held pressure would have lost it beyond {path[lost - 1].pressure:.4g} MPa."
 
 
 @dataclass(frozen=True)

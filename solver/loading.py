@@ -148,10 +148,13 @@ def _stopped(newton: Newton, leg: Leg, path: tuple[PathPoint, ...]) -> Walk:
     from solver.continuation import limit_ahead
 
     limit = limit_ahead(newton, leg.reached.state, leg.load, STEPS_TO_A_LIMIT)
-    if limit is None:
+    if limit is None or abs(limit.point.load - leg.load) > NEAR * abs(leg.load):
         return Walk(leg.reached.state, path, leg.failure)
     return Walk(leg.reached.state, path, limit.describe(newton.pressure), limit.point.load)
 
+
+NEAR = 0.05
+"""A limit further ahead, in fractions of the load reached, is not what stopped a walk."""
 
 STEPS_TO_A_LIMIT = 12
 """Steps by arc length that may be spent on finding out what stopped a walk."""
