@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from solver.inflation import inflate
     from solver.interpolation import transfer
     from solver.loading import solve
-    from solver.loads import BodyForce, PointForce, Traction
+    from solver.loads import BodyForce, Couple, PointForce, Traction
     from solver.materials import Ogden
     from solver.mesh import Mesh
     from solver.models import Problem, SlenderAxis, Supports
@@ -33,7 +33,7 @@ _MODULES = {
     "inflation": ("inflate",),
     "interpolation": ("transfer",),
     "loading": ("solve",),
-    "loads": ("BodyForce", "PointForce", "Traction"),
+    "loads": ("BodyForce", "Couple", "PointForce", "Traction"),
     "materials": ("Ogden",),
     "mesh": ("Mesh",),
     "models": ("Problem", "SlenderAxis", "Supports"),
@@ -47,6 +47,7 @@ _MODULES = {
 __all__ = [
     "BodyForce",
     "Checkpoint",
+    "Couple",
     "Event",
     "Limit",
     "Mesh",

@@ -11,7 +11,7 @@ from solver import kernels
 from solver.arrays import Integers, Reals
 from solver.constraints import Numbering, number_unknowns
 from solver.elements import tetrahedron_rule
-from solver.loads import nodal_forces
+from solver.loads import couple, nodal_forces
 from solver.mesh import Mesh
 from solver.models import Problem, Supports
 from solver.moving_plane import MovingPlane
@@ -66,6 +66,8 @@ class Assembly:
         self._plane_dofs, self._plane_entries = plane_dofs, self.pattern.entries(plane_dofs)
         self._solid = solid(problem)
         self.dead_force = self.numbering.gather(nodal_forces(mesh, problem.loads))
+        if self.plane is not None:
+            self.dead_force[self.numbering.plane[0]] += couple(problem.loads)
         self._skin = self._pressurised_skin()
 
     def evaluate(

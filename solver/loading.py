@@ -31,8 +31,9 @@ def solve(
     Dead loads and prescribed motions of the problem grow along with the pressure.
     With ``initial`` = (displacement (n, 3), hydrostatic pressure (v,)), for instance from
     ``solver.interpolation``, Newton starts there at full load; should that fail, the load is walked
-    as usual. The path has a point at each of the pressures ``stops`` (MPa) between zero and
-    ``pressure``: passed on the way up, or visited on the way back down after a start at full load.
+    as usual. The path has a point at each of the pressures ``stops`` (MPa; fractions of the load
+    where there is no pressure) before ``pressure``: passed on the way up, or visited on the way
+    back down after a start at full load.
     With ``resume``, a checkpoint that a listener was given on an earlier run of the same problem,
     pressure, options and stops, the walk goes on from there, to the same bits.
     A load that cannot be reached gives the last good state with ``converged`` False
@@ -68,12 +69,11 @@ class Walk:
 
 
 def _stops(pressures: Sequence[float], pressure: float) -> tuple[float, ...]:
-    """Pressures to visit as ascending fractions of the asked one, strictly within (0, 1)."""
-    loads = sorted({float(stop) / pressure if pressure else np.inf for stop in pressures})
+    """Pressures, or without one fractions of the load, as ascending fractions within (0, 1)."""
+    loads = sorted({float(stop) / (pressure or 1.0) for stop in pressures})
     if not all(0 < load <= 1 + 1e-12 for load in loads):
-        raise ValueError(
-            f"stops must lie between 0 and the pressure of {pressure:g} MPa, got {list(pressures)}."
-        )
+        end = f"the pressure of {pressure:g} MPa" if pressure else "the whole load, 1"
+        raise ValueError(f"stops must lie between 0 and {end}, got {list(pressures)}.")
     return tuple(load for load in loads if load < 1 - 1e-12)
 
 
@@ -144,13 +144,18 @@ def _walk(newton: Newton, stops: tuple[float, ...], leg: Leg, points: Sequence[P
 
 
 def _stopped(newton: Newton, leg: Leg, path: tuple[PathPoint, ...]) -> Walk:
-    """A walk that came no further, and the limit point that was in the way if there is one."""
+    """A walk that came no further, and the limit point that was in the way if there is one.
+
+    Its last state may have been good enough for going on only: it is corrected once more.
+    """
     from solver.continuation import limit_ahead
 
-    limit = limit_ahead(newton, leg.reached.state, leg.load, STEPS_TO_A_LIMIT)
-    if limit is None or abs(limit.point.load - leg.load) > NEAR * abs(leg.load):
-        return Walk(leg.reached.state, path, leg.failure)
-    return Walk(leg.reached.state, path, limit.describe(newton.pressure), limit.point.load)
+    last = newton.correct(leg.reached.state, leg.load, newton.options.tolerance)
+    state = leg.reached.state if last.failure else last.state
+    limit = limit_ahead(newton, state, leg.load, STEPS_TO_A_LIMIT)
+    if limit is None or not -1e-6 <= limit.point.load - leg.load <= NEAR * leg.load:
+        return Walk(state, path, leg.failure)
+    return Walk(state, path, limit.describe(newton.pressure), limit.point.load)
 
 
 NEAR = 0.05
@@ -175,7 +180,7 @@ def _walk_to(newton: Newton, end: float, leg: Leg, path: tuple[PathPoint, ...] =
         target = end if last else load + math.copysign(step, end - load)
         guess = newton.predicted(reached.state, direction, load, target)
         attempt = newton.correct(
-            guess, target, options.tolerance if last else options.loose_tolerance
+            guess, target, options.tolerance if last else newton.loose_tolerance
         )
         failure = attempt.failure or _leapt(newton, reached.state, guess, attempt.state)
         if failure:

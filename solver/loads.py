@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
@@ -39,22 +40,51 @@ class PointForce:
     force: tuple[float, float, float]
 
 
-Load: TypeAlias = Traction | BodyForce | PointForce
+@dataclass(frozen=True)
+class Couple:
+    """A ``moment`` (N mm) about y on the problem's moving plane; it turns with the plane.
+
+    Positive ones turn the plane's normal from +x towards -z. It is what the rest of a uniform
+    chain, or of a long tube, exerts in pure bending.
+    """
+
+    moment: float
+
+
+Load: TypeAlias = Traction | BodyForce | PointForce | Couple
 
 
 def nodal_forces(mesh: Mesh, loads: Sequence[Load]) -> Reals:
-    """Forces (n, 3) in N that do the work of all ``loads``.
+    """Forces (n, 3) in N that do the work of all ``loads`` but the couples.
 
     Raises ``ValueError`` for an unknown surface, a point force on no node, or a value that is not
     a finite vector.
     """
     forces = np.zeros(mesh.nodes.shape)
     for load in loads:
-        forces += _forces(mesh, load)
+        if not isinstance(load, Couple):
+            forces += _forces(mesh, load)
     return forces
 
 
-def _forces(mesh: Mesh, load: Load) -> Reals:
+def check_loads(loads: Sequence[Load], moving_plane: str | None) -> None:
+    """Raise ``ValueError`` unless couples, and only they, go with a moving plane."""
+    couples = [isinstance(load, Couple) for load in loads]
+    if moving_plane is None and any(couples):
+        raise ValueError("loads: a couple needs a moving plane to act on.")
+    if moving_plane is not None and not all(couples):
+        raise ValueError("loads: a cell with a moving plane takes pressure only, besides couples.")
+
+
+def couple(loads: Sequence[Load]) -> float:
+    """Sum of the couples on the moving plane, N mm; ``ValueError`` if it is not finite."""
+    moment = math.fsum(load.moment for load in loads if isinstance(load, Couple))
+    if not math.isfinite(moment):
+        raise ValueError(f"load: a couple's moment must be a finite number of N mm, got {moment}.")
+    return moment
+
+
+def _forces(mesh: Mesh, load: Traction | BodyForce | PointForce) -> Reals:
     if isinstance(load, PointForce):
         return _on_node(mesh, load)
     if isinstance(load, Traction):

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from solver.arrays import Integers, Reals
+from solver.elements import TETRAHEDRON_EDGES
 
 
 @dataclass(frozen=True)
@@ -61,6 +62,14 @@ class Mesh:
     def size(self) -> float:
         """Diagonal of the bounding box, mm."""
         return float(np.linalg.norm(np.ptp(self.nodes, axis=0)))
+
+    @cached_property
+    def edge(self) -> float:
+        """Mean length of the tetrahedra's edges, mm; 0 without any."""
+        a, b = (
+            self.nodes[self.tets[:, list(ends)]] for ends in zip(*TETRAHEDRON_EDGES, strict=True)
+        )
+        return float(np.linalg.norm(a - b, axis=2).mean()) if len(self.tets) else 0.0
 
     def triangles(self, *names: str) -> Integers:
         """All six-node triangles of the named surfaces, (k, 6); ``ValueError`` if unknown."""

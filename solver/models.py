@@ -75,7 +75,8 @@ class Problem:
     With an ``axis`` the nonlinear solver moves the body by finite rotations (``solver.motion``).
     ``moving_plane`` names a plane surface normal to x that stays plane, free to turn about y and
     to shift along x: the section between two cells of a uniform chain, which goes on behind it.
-    It carries what the pressure does to the cavity beyond (``solver.moving_plane``).
+    It carries what the pressure does to the cavity beyond (``solver.moving_plane``), and the
+    ``Couple`` among the loads, the only load there may be besides.
     Stress nearer than ``sharp_edge_radius`` (mm) to an edge where the ideal body's has no finite
     value is left out of peaks (``solver.sharp_edges``).
     Raises ``ValueError`` when a surface is unknown, the moving one is not plane, or the supports
@@ -93,12 +94,12 @@ class Problem:
 
     def __post_init__(self) -> None:
         from solver.constraints import check_pressure, check_supports, fixed_displacements
+        from solver.loads import check_loads
 
         object.__setattr__(self, "pressurised", tuple(self.pressurised))
         object.__setattr__(self, "loads", tuple(self.loads))
         self.mesh.triangles(*self.pressurised)
-        if self.loads and self.moving_plane is not None:
-            raise ValueError("loads: a cell with a moving plane takes pressure only.")
+        check_loads(self.loads, self.moving_plane)
         check_supports(self.mesh, self.supports, self.moving_plane)
         if self.material.compliance == 0:
             check_pressure(self.mesh, fixed_displacements(self.mesh, self.supports))

@@ -26,11 +26,12 @@ from solver.stress import deviatoric_at_nodes, von_mises
 class SolverOptions:
     """How the load is walked.
 
-    Steps are fractions of the asked pressure. A load counts as reached when the last Newton
-    correction moved no node by more than ``tolerance``, in units of the body's diagonal; what is
-    left after that correction is far smaller. Below the asked pressure ``loose_tolerance`` will
-    do, if the correction was smaller than the one before. A factorization is used again after a
-    correction that was smaller than the one before by the factor ``reuse``; 0 is never.
+    Steps are fractions of the asked load. A load counts as reached when the last Newton correction
+    moved no node by more than ``tolerance``, in units of the body's diagonal; what is left after
+    that correction is far smaller. Below the asked load ``loose_tolerance`` will do, or a tenth of
+    a mean edge of the mesh if that is less (a slender body is stiff against what is small against
+    its length), if the correction was smaller than the one before. A factorization is used again
+    after a correction that was smaller than the one before by the factor ``reuse``; 0 is never.
     """
 
     first_step: float = 0.1
@@ -87,6 +88,9 @@ Listener = Callable[[Event], None]
 DIFFERENCE = 1e-6
 """Fraction of the load between the two residuals of a difference quotient."""
 
+EDGE_SHARE = 0.1
+"""Share of a mean edge by which a state on the way may be off."""
+
 DIVERGED = 1.0
 """A correction of so many body diagonals corrects nothing."""
 
@@ -134,6 +138,8 @@ class Newton:
         self.move = motion_along(self.problem.mesh, self.problem.axis)
         self.trusted = trusted_nodes(self.problem)
         self.held = ~np.isnan(self.given(1.0))
+        edge = self.problem.mesh.edge / self.problem.mesh.size
+        self.loose_tolerance = min(self.options.loose_tolerance, EDGE_SHARE * edge)
         self.linearised, self.linearised_load = State.zero(self.problem), 0.0
 
     def correct(self, guess: State, load: float, tolerance: float) -> Attempt:
@@ -151,9 +157,9 @@ class Newton:
             try:
                 if not reuse:
                     self.factorize(equilibrium, state, load)
+                increment = self.solve(-equilibrium.residual)
             except SingularMatrix as error:
                 return Attempt(guess, iteration, f"the tangent is singular ({error})")
-            increment = self.solve(-equilibrium.residual)
             correction = float(np.abs(self.linear(state, increment)).max())
             if not correction < DIVERGED * size:
                 return Attempt(guess, iteration, "the Newton corrections grew without bound")
@@ -231,12 +237,20 @@ class Newton:
     def factorize(self, equilibrium: Equilibrium, state: State, load: float) -> None:
         """Factorize the tangent at a state and count it."""
         self.matrix.factorize(equilibrium.tangent)
+        edge = self.problem.mesh.edge / self.problem.mesh.size
+        self.loose_tolerance = min(self.options.loose_tolerance, EDGE_SHARE * edge)
         self.linearised, self.linearised_load = state, load
         self.effort.factorizations += 1
 
     def solve(self, right_hand_side: Reals) -> State:
-        """Solve with the factorization at hand."""
-        return self.expanded(self.matrix.solve(right_hand_side))
+        """Solve with the factorization at hand, in double precision if single will not do."""
+        solution = self.matrix.solve(right_hand_side)
+        if self.matrix.doubtful and self.options.linear_solver == "auto":
+            self.sharpen()
+            equilibrium = self.evaluate(self.linearised, self.linearised_load)
+            self.factorize(equilibrium, self.linearised, self.linearised_load)
+            solution = self.matrix.solve(right_hand_side)
+        return self.expanded(solution)
 
     def expanded(self, vector: Reals) -> State:
         """A vector over the unknowns (m,) as an increment of the state."""

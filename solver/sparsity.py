@@ -95,6 +95,8 @@ def chunks(
     starts (k + 1,).
     """
     elements = np.arange(len(mesh.tets)) if elements is None else elements
+    if len(elements) == 0:
+        return np.zeros(0, np.int32), np.zeros(1, np.int32), np.zeros(1, np.int32)
     centres = mesh.nodes[mesh.tets[elements]].mean(axis=1)
     along = centres[:, np.ptp(centres, axis=0).argmax()]
     count = int(np.clip(len(centres) // ELEMENTS_PER_CHUNK, 1, MOST_CHUNKS))

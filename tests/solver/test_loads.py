@@ -15,6 +15,7 @@ from solver import (
     Ogden,
     PointForce,
     Problem,
+    SlenderAxis,
     SolverOptions,
     Supports,
     Traction,
@@ -217,3 +218,27 @@ def test_a_cell_with_a_moving_plane_takes_no_dead_loads(cell: Mesh, ninjaflex: O
         Problem(
             cell, ninjaflex, middles, ("cavity",), (BodyForce((0, 0, 1e-5)),), moving_plane="x1"
         )
+
+
+@pytest.mark.parametrize(("load", "degrees"), [(1.0, 26.433519588), (4.0, 64.242282435)])
+def test_a_slender_strip_is_solved_in_double_precision_and_bends_as_the_elastica(
+    box: Meshes, load: float, degrees: float
+) -> None:
+    """Plane strain, E I = mu h^3 / 3 per depth; tip angles under P L^2 / E I from the elastica.
+
+    Single precision has no right digit left at a hundred times as long as thick.
+    """
+    length = 100.0
+    mesh = box((100, 1, 1), (length, 1.0, 1.0))
+    named = Mesh(mesh.nodes, mesh.tets, {**mesh.surfaces, "tip": mesh.surfaces["x1"]})
+    supports = Supports(clamped=("x0",), symmetry={"y0": 1, "y1": 1})
+    down = Traction("tip", (0.0, 0.0, -load / 3 / length**2))
+    axis = SlenderAxis(tuple(np.linspace(0, length, 21)))
+    problem = Problem(named, Ogden((1.0,), (2.0,)), supports, loads=(down,), axis=axis)
+    solution = solve(problem, stops=(0.5,))
+    assert solution.converged, solution.message
+    assert solution.linear_solver != "pardiso-single"
+    assert solution.rotation == pytest.approx(degrees, rel=0.01)
+    rotations = [point.rotation for point in solution.path]
+    assert rotations == sorted(rotations)
+    assert any(point.load == pytest.approx(0.5) for point in solution.path)

@@ -9,7 +9,19 @@ import pytest
 from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
-from solver import Mesh, Ogden, Problem, Solution, SolverOptions, Supports, nodal_von_mises, solve
+from solver import (
+    Couple,
+    Mesh,
+    Ogden,
+    PointForce,
+    Problem,
+    Solution,
+    SolverOptions,
+    Supports,
+    nodal_von_mises,
+    reaction,
+    solve,
+)
 from solver.assembly import Assembly
 from solver.pressure import enclosed_volume
 from solver.state import State
@@ -299,3 +311,45 @@ def test_a_moving_plane_alone_holds_no_body(
 ) -> None:
     with pytest.raises(ValueError, match=motion):
         Problem(cell, ninjaflex, Supports(symmetry=symmetry), ("cavity",), moving_plane="x1")
+
+
+def rolled(mesh: Mesh, moment: float) -> Solution:
+    """A block in plane strain under a couple on its end, neo-Hookean with mu = 1 MPa."""
+    supports = Supports(symmetry={"x0": 0, "y0": 1, "y1": 1})
+    loads = (Couple(moment),)
+    problem = Problem(mesh, Ogden((1.0,), (2.0,)), supports, loads=loads, moving_plane="x1")
+    return solve(problem, options=TIGHT)
+
+
+@pytest.mark.parametrize(
+    ("thickness", "degrees", "moment"), [(2.0, 90.0, 0.207909366754), (5.0, 180.0, 5.62233079441)]
+)
+def test_a_couple_rolls_a_block_into_the_sector_of_rivlin(
+    box: Meshes, thickness: float, degrees: float, moment: float
+) -> None:
+    # 20 mm long blocks turn by so much under the moment per mm of depth (Rivlin's closed form)
+    solution = rolled(box((1, 1, 8), (1.0, 1.0, thickness)), moment)
+    assert solution.converged, solution.message
+    assert solution.rotation == pytest.approx(degrees / 20.0, rel=2e-3)
+    root = reaction(solution, "x0")
+    assert root.moment[1] == pytest.approx(-moment, rel=1e-8)
+    assert root.force[0] == pytest.approx(0.0, abs=1e-8)
+
+
+def test_opposite_couples_roll_to_mirror_images(box: Meshes) -> None:
+    mesh = box((2, 1, 4), (1.0, 1.0, 2.0))
+    there, back = rolled(mesh, 0.2), rolled(mesh, -0.2)
+    assert back.rotation == pytest.approx(-there.rotation, rel=1e-3)
+
+
+def test_couples_and_other_loads_are_refused_where_they_cannot_act(
+    box: Meshes, ninjaflex: Ogden
+) -> None:
+    mesh, push = box((1, 1, 1)), PointForce((1.0, 1.0, 1.0), (0.0, 0.0, 1.0))
+    with pytest.raises(ValueError, match="a couple needs a moving plane"):
+        Problem(mesh, ninjaflex, Supports(clamped=("x0",)), loads=(Couple(1.0),))
+    with pytest.raises(ValueError, match="pressure only, besides couples"):
+        Problem(mesh, ninjaflex, MIDDLES, loads=(push,), moving_plane="x1")
+    problem = Problem(mesh, ninjaflex, MIDDLES, loads=(Couple(np.nan),), moving_plane="x1")
+    with pytest.raises(ValueError, match="moment must be a finite number"):
+        solve(problem)

@@ -85,9 +85,9 @@ def test_a_stop_that_is_not_on_the_way_is_refused(problem: Problem, stop: float)
         solve(problem, 0.1, stops=(0.05, stop))
 
 
-def test_no_stop_is_on_the_way_to_no_pressure(problem: Problem) -> None:
-    with pytest.raises(ValueError, match="stops must lie between 0 and the pressure of 0 MPa"):
-        solve(problem, 0.0, stops=(0.05,))
+def test_without_pressure_stops_are_fractions_of_the_load(problem: Problem) -> None:
+    with pytest.raises(ValueError, match="stops must lie between 0 and the whole load, 1"):
+        solve(problem, 0.0, stops=(1.5,))
 
 
 def test_a_load_out_of_reach_keeps_the_stops_it_passed(sphere: Callable[..., Mesh]) -> None:
