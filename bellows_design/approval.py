@@ -1,9 +1,11 @@
 """The verdict: may this design be printed and pressurised?
 
 Approved is a design for which every printability rule passes, the solver reached the design
-pressure, and the highest von Mises stress keeps its limit *including its estimated error*. Where
-the error reaches across the limit nothing is decided: the answer is no, and the remedy is a finer
-mesh, not another design. A missing rule or a missing error estimate is never taken for a pass.
+pressure, the highest von Mises stress keeps its limit *including its estimated error*, and the
+material is not strained beyond its elongation at break. Where the error reaches across the limit
+nothing is decided: the answer is no, and the remedy is a finer mesh, not another design. A missing
+rule or a missing error estimate is never taken for a pass. Strains outside of the range the
+material was tested in are a warning: the range is that of the tests, not of the material.
 """
 
 from __future__ import annotations
@@ -18,7 +20,7 @@ from printers import PrintabilityReport
 REQUIRED_RULES = ("watertight", "airtightness", "minimum_lines", "cross_section")
 """Rules a report must contain, else their silence would count as consent."""
 
-Kind = Literal["printability", "convergence", "stress", "accuracy"]
+Kind = Literal["printability", "convergence", "stress", "accuracy", "strain"]
 
 
 class ErrorEstimate(Protocol):
@@ -26,6 +28,17 @@ class ErrorEstimate(Protocol):
 
     @property
     def max_von_mises_percent(self) -> float | None: ...
+
+
+class Strain(Protocol):
+    """Part of an evaluation: how far the material is strained, as fractions."""
+
+    @property
+    def highest(self) -> float: ...
+    @property
+    def elongation_at_break(self) -> float | None: ...
+    @property
+    def breaks(self) -> bool: ...
 
 
 class Evaluated(Protocol):
@@ -41,6 +54,10 @@ class Evaluated(Protocol):
     def max_von_mises_mpa(self) -> float: ...
     @property
     def error_estimate(self) -> ErrorEstimate: ...
+    @property
+    def strain(self) -> Strain: ...
+    @property
+    def warnings(self) -> tuple[str, ...]: ...
 
 
 @dataclass(frozen=True)
@@ -57,9 +74,10 @@ class Reason:
 
 @dataclass(frozen=True)
 class Verdict:
-    """Approved, or refused for all of ``reasons``."""
+    """Approved, or refused for all of ``reasons``; ``warnings`` decide nothing."""
 
     reasons: tuple[Reason, ...]
+    warnings: tuple[str, ...] = ()
 
     @property
     def approved(self) -> bool:
@@ -73,12 +91,17 @@ class Verdict:
 
     def to_dict(self) -> dict[str, Any]:
         """Plain values for JSON."""
-        return {"approved": self.approved, "reasons": [asdict(reason) for reason in self.reasons]}
+        return {
+            "approved": self.approved,
+            "reasons": [asdict(reason) for reason in self.reasons],
+            "warnings": list(self.warnings),
+        }
 
 
 def decide(design: Design, report: PrintabilityReport, evaluation: Evaluated) -> Verdict:
     """The verdict on ``design`` from its printability report and its evaluation."""
-    return Verdict((*_print_reasons(report), *_load_reasons(design, evaluation)))
+    reasons = (*_print_reasons(report), *_load_reasons(design, evaluation))
+    return Verdict(reasons, evaluation.warnings)
 
 
 def _print_reasons(report: PrintabilityReport) -> tuple[Reason, ...]:
@@ -102,7 +125,16 @@ def _load_reasons(design: Design, evaluation: Evaluated) -> tuple[Reason, ...]:
         told = f": {evaluation.message}" if evaluation.message else "."
         message = f"The solver reached {reached:.4g} MPa of {required:g} MPa{told}"
         return (Reason("convergence", "pressure", reached, required, "MPa", message),)
-    return _stress_reasons(design.max_von_mises, evaluation)
+    return (*_stress_reasons(design.max_von_mises, evaluation), *_strain_reasons(evaluation.strain))
+
+
+def _strain_reasons(strain: Strain) -> tuple[Reason, ...]:
+    limit = strain.elongation_at_break
+    if limit is None or not strain.breaks:
+        return ()
+    reached, allowed = 100 * strain.highest, 100 * limit
+    message = f"The material is strained to {reached:.3g} % but breaks at {allowed:.3g} %."
+    return (Reason("strain", "elongation_at_break", reached, allowed, "%", message),)
 
 
 def _stress_reasons(limit: float, evaluation: Evaluated) -> tuple[Reason, ...]:

@@ -1,34 +1,71 @@
-"""Files that are either complete or not there."""
+"""Files and folders that are either complete or not there.
+
+What is not complete yet stands beside its target under a name that begins with a dot and tells
+which process on which machine is at work on it. Whatever a killed process left is removed by the
+next one that writes to the same target.
+"""
 
 from __future__ import annotations
 
 import os
-import tempfile
+import platform
+import re
+import secrets
+import shutil
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
+from functools import cache
 from pathlib import Path
+
+MARK = "bellows-tmp"
+"""Part of the name of everything temporary."""
+
+_LONGEST_NAME = 40
+"""Characters of the target's name in a temporary one: a file's name has 255 bytes at most."""
 
 
 @contextmanager
 def replacing(target: Path) -> Iterator[Path]:
     """Path of a temporary file beside ``target`` that takes its place when the block succeeds.
 
-    The temporary name keeps the suffix (writers choose the format by it) and begins with a dot.
-    When the block fails, or is interrupted, the temporary file goes and ``target`` stays as it
-    was. Raises ``OSError`` if the folder is missing or cannot be written to.
+    The temporary name keeps the suffix: writers choose the format by it. When the block fails, or
+    is interrupted, the temporary file goes and ``target`` stays as it was. Raises ``OSError`` if
+    the folder is missing or cannot be written to.
     """
-    handle, name = tempfile.mkstemp(
-        prefix=f".{target.stem}-", suffix=target.suffix, dir=target.parent
-    )
-    os.close(handle)
-    temporary = Path(name)
-    try:
+    remove_leftovers(target)
+    temporary = temporary_beside(target)
+    try:  # from before there is a file: an interrupt may come at any time
+        temporary.touch(mode=0o600, exist_ok=False)
         yield temporary
         _settle(temporary)
         os.replace(temporary, target)
     finally:
-        with suppress(FileNotFoundError):
-            temporary.unlink()
+        temporary.unlink(missing_ok=True)
+
+
+def temporary_beside(target: Path) -> Path:
+    """A path in ``target``'s folder that nothing has and that is known to be this process's."""
+    own = f"{_machine()}-{os.getpid()}-{_session(os.getpid())}-{secrets.token_hex(4)}"
+    return target.with_name(f"{_beginning(target)}{own}{target.suffix[:_LONGEST_NAME]}")
+
+
+def remove_leftovers(target: Path) -> None:
+    """Remove what processes of this machine that are no more left beside ``target``."""
+    if not target.parent.is_dir():
+        return
+    for path in target.parent.iterdir():
+        if path.name.startswith(_beginning(target)) and _is_left_over(path.name):
+            with suppress(OSError):
+                remove(path)
+
+
+def remove(path: Path) -> None:
+    """Remove a file, a link, or a folder with all it holds, if it is there."""
+    if path.is_dir() and not path.is_symlink():
+        shutil.rmtree(path)
+    else:
+        path.unlink(missing_ok=True)
 
 
 def open_to_readers(path: Path) -> None:
@@ -43,3 +80,46 @@ def _settle(path: Path) -> None:
     open_to_readers(path)
     with path.open("rb") as file:
         os.fsync(file.fileno())
+
+
+def _beginning(target: Path) -> str:
+    return f".{target.name[:_LONGEST_NAME]}.{MARK}-"
+
+
+def _is_left_over(name: str) -> bool:
+    found = re.search(rf"\.{MARK}-([A-Za-z0-9_]*)-(\d+)-([0-9a-f]+)-[0-9a-f]+", name)
+    if found is None or found.group(1) != _machine():
+        return False
+    process, session = int(found.group(2)), found.group(3)
+    if process == os.getpid():  # an earlier one may have had the same number
+        return session != _session(process)
+    return not _is_running(process)
+
+
+@cache
+def _machine() -> str:
+    return re.sub(r"[^A-Za-z0-9]+", "_", platform.node())[:20]
+
+
+@cache
+def _session(process: int) -> str:
+    """What tells this process from others that had or will have its number."""
+    return secrets.token_hex(4)
+
+
+def _is_running(process: int) -> bool:
+    """True if there is such a process on this machine; true also where nobody can tell."""
+    if sys.platform == "win32":  # there os.kill would end it
+        import ctypes
+
+        query = 0x1000  # PROCESS_QUERY_LIMITED_INFORMATION
+        handle = ctypes.windll.kernel32.OpenProcess(query, False, process)
+        ctypes.windll.kernel32.CloseHandle(handle)
+        return bool(handle)
+    try:
+        os.kill(process, 0)
+    except (ProcessLookupError, OverflowError):
+        return False
+    except OSError:  # someone else's
+        return True
+    return True

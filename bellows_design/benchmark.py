@@ -13,14 +13,9 @@ from importlib.resources.abc import Traversable
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
+from bellows_design.budget import DEFAULT, Budget
 from bellows_design.design import Design, load_design
-from bellows_design.evaluation import (
-    MOST_ELEMENTS,
-    ErrorEstimate,
-    Evaluation,
-    refined,
-    started,
-)
+from bellows_design.evaluation import ErrorEstimate, Evaluation, refined, started
 from bellows_design.machine import machine, peak_memory_mib
 from bellows_design.models import HALF, UNIT_CELL, Model, choose
 from bellows_design.progress import Progress, Silence
@@ -237,15 +232,16 @@ def study(
     meshes: int | None = None,
     progress: Progress = SILENCE,
     references: Traversable = STORED,
+    budget: Budget = DEFAULT,
 ) -> Study:
     """Evaluate ``design`` with each of the ``models`` on up to ``meshes`` meshes.
 
     Without ``meshes`` it is one more than an evaluation of that model uses. A sequence ends early
-    where the next mesh would be too large, or where the load is not reached.
+    where the next mesh would exceed the ``budget``, or where the load is not reached.
 
     Raises:
-        ValueError: unknown model, number of meshes out of bounds, or a geometry the CAD kernel
-            refuses.
+        ValueError: unknown model, number of meshes out of bounds, a geometry the CAD kernel
+            refuses, or a first mesh that exceeds the budget.
         MeshingError: no usable first mesh.
     """
     if meshes is not None and not 1 <= meshes <= MOST_MESHES:
@@ -255,7 +251,7 @@ def study(
     progress.stage("warm-up, not timed")
     warm_up()
     series = tuple(
-        _series(design, model, why, meshes or model.levels + 1, reference, progress)
+        _series(design, model, why, meshes or model.levels + 1, reference, progress, budget)
         for model, why in chosen.values()
     )
     return Study(design, series, described)
@@ -269,10 +265,15 @@ def warm_up() -> None:
 
 
 def evaluations(
-    design: Design, model: Model, reason: str, meshes: int, progress: Progress = SILENCE
+    design: Design,
+    model: Model,
+    reason: str,
+    meshes: int,
+    progress: Progress = SILENCE,
+    budget: Budget = DEFAULT,
 ) -> Iterator[Evaluation]:
     """What ``evaluate`` would return after each of so many meshes."""
-    evaluation = started(design, model, reason, progress=progress)
+    evaluation = started(design, model, reason, progress=progress, budget=budget)
     yield evaluation
     while len(evaluation.solutions) < meshes and evaluation.can_refine:
         evaluation = refined(evaluation, progress)
@@ -324,14 +325,15 @@ def _series(
     meshes: int,
     reference: Reference | None,
     progress: Progress,
+    budget: Budget,
 ) -> Series:
     """Follow a model's meshes to the end."""
-    found, note = _collected(evaluations(design, model, reason, meshes, progress))
+    found, note = _collected(evaluations(design, model, reason, meshes, progress, budget))
     levels, last = tuple(level for _, level in found), found[-1][0]
     if not last.converged:
         note = last.message
     elif not note and len(levels) < meshes:
-        note = f"the next mesh would have more than {MOST_ELEMENTS} tetrahedra."
+        note = f"the next mesh would have {last.next_mesh.told}, above {budget.memory:.3g} GiB."
     ends = None if last.ends is None else work_of(last.ends)
     measured_by = reference or finest_of(model.name, levels)
     return Series(model.name, reason, last.converged, levels, measured_by, note, ends)

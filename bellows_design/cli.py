@@ -1,8 +1,8 @@
 """The command ``bellows``: parse, call, print.
 
 Exit status: 0 done or approved; 1 refused, or a printability rule failed; 2 bad input; 3 the
-solver could not reach the load; 4 an internal error; 130 interrupted. Results go to stdout, all
-else to stderr. Heavy imports wait until a command needs them.
+solver could not reach the load; 4 an internal error; 130 interrupted, 143 terminated. Results go
+to stdout, all else to stderr. Heavy imports wait until a command needs them.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ import typer
 from bellows_design.terminal import Answer, answer
 
 if TYPE_CHECKING:
+    from bellows_design.budget import Budget
     from bellows_design.design import Design
 
 app = typer.Typer(
@@ -44,6 +45,18 @@ Pressure = Annotated[
     typer.Option(
         metavar="MPA", help="Pressure instead of the design's, MPa; START:STOP:STEP for a curve."
     ),
+]
+Memory = Annotated[
+    float | None,
+    typer.Option(
+        metavar="GIB",
+        help="Memory to take at most; larger meshes are refused. Without it three quarters of the "
+        "machine's, at most 4.",
+    ),
+]
+MeshSeconds = Annotated[
+    float | None,
+    typer.Option(metavar="S", help="Time limit of each mesh, in seconds; without it 120."),
 ]
 
 
@@ -166,6 +179,8 @@ def evaluate(
         Path | None, typer.Option(help="Also write the deformed mesh, for ParaView (.vtu).")
     ] = None,
     settings: Settings = None,
+    memory: Memory = None,
+    mesh_seconds: MeshSeconds = None,
     as_json: AsJson = False,
 ) -> None:
     """Compute bending angle and stress under pressure."""
@@ -178,10 +193,13 @@ def evaluate(
         pressures = () if pressure is None else parse_pressures(pressure)
         chosen = _load(name, settings, pressures[-1] if pressures else None)
         _require_file(vtu, ".vtu")
+        budget = _budget(memory, mesh_seconds)
         from bellows_design import evaluation  # heavy: not before the input is known to be good
 
         with on_stderr() as progress:
-            result = evaluation.evaluate(chosen, model.value, accuracy, pressures, progress)
+            result = evaluation.evaluate(
+                chosen, model.value, accuracy, pressures, progress, budget=budget
+            )
             if vtu is not None:
                 evaluation.write_vtu(result, vtu)
         content = result.to_dict()
@@ -195,6 +213,8 @@ def run(
     name: DesignName,
     output: Annotated[Path, typer.Option(help="Folder of the approved models.")] = Path("exports"),
     settings: Settings = None,
+    memory: Memory = None,
+    mesh_seconds: MeshSeconds = None,
     as_json: AsJson = False,
 ) -> None:
     """Design, check, evaluate, decide, and export what is approved."""
@@ -206,8 +226,9 @@ def run(
 
         chosen = _load(name, settings, rename=True)
         load_profile(chosen.printer)
+        budget = _budget(memory, mesh_seconds)
         with on_stderr() as progress:
-            outcome = pipeline.run(chosen, output, progress)
+            outcome = pipeline.run(chosen, output, progress, budget)
         content = outcome.to_dict()
         status = 0 if outcome.verdict.approved else 1 if outcome.evaluation.converged else 3
         return Answer(content, tables.outcome_table(content), status)
@@ -231,6 +252,8 @@ def benchmark(
         Path | None, typer.Option(help="Also draw error over seconds (.png); needs matplotlib.")
     ] = None,
     settings: Settings = None,
+    memory: Memory = None,
+    mesh_seconds: MeshSeconds = None,
     as_json: AsJson = False,
 ) -> None:
     """Measure speed against error: models by meshes, against converged values."""
@@ -241,6 +264,7 @@ def benchmark(
         from bellows_design.progress import on_stderr
 
         chosen = _load(name, settings)
+        budget = _budget(memory, mesh_seconds)
         _require_file(output, ".json")
         _require_file(plot, ".png")
         if plot is not None:
@@ -249,7 +273,7 @@ def benchmark(
 
         names = [each.value for each in model or ()] or benchmark.DEFAULT_MODELS
         with on_stderr() as progress:
-            study = benchmark.study(chosen, names, meshes, progress)
+            study = benchmark.study(chosen, names, meshes, progress, budget=budget)
         content = study.to_dict()
         if output is not None:
             write_json(content, output)
@@ -267,7 +291,7 @@ def fit(
         typer.Argument(metavar="CSV", help="Columns mode, stretch or strain, and stress_mpa."),
     ],
     model: Annotated[
-        str, typer.Option(help="best, neo-hooke, mooney-rivlin, ogden1, ogden2 or ogden3.")
+        str, typer.Option(help="best, neo-hooke, mooney-rivlin, ogden1, ogden2, ogden3 or yeoh.")
     ] = "best",
     output: Annotated[
         Path | None, typer.Option("-o", "--output", help="Also write a material as .toml.")
@@ -303,6 +327,16 @@ def _load(
     return renamed_if_changed(changed, original) if rename else changed
 
 
+def _budget(memory: float | None, mesh_seconds: float | None) -> Budget:
+    """The limits given, and the usual ones of those that are not."""
+    from bellows_design.budget import DEFAULT, Budget
+
+    return Budget(
+        DEFAULT.memory if memory is None else memory,
+        DEFAULT.mesh_seconds if mesh_seconds is None else mesh_seconds,
+    )
+
+
 def _require_file(path: Path | None, suffix: str) -> None:
     """Refuse a file that cannot be written or whose name does not end in ``suffix``."""
     if path is not None:
@@ -327,8 +361,10 @@ def _require_suffix(path: Path, suffix: str) -> None:
 
 
 def main() -> None:
-    """Entry point of the command ``bellows``."""
-    app()
+    """The command ``bellows``, as ``bellows_design.__main__`` runs it."""
+    from bellows_design.__main__ import main
+
+    main()
 
 
 if __name__ == "__main__":

@@ -31,7 +31,7 @@ _QUOTED_TEXT = re.compile(r"""\"(?:[^"\\]|\\.?)*+\"?|'[^']*+'?""")
 
 _SLUG = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_-]{0,63}")
 _WINDOWS_DEVICE = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)", re.IGNORECASE)
-_LABELS = {"name": True, "description": True, "material": {"name", "source"}}
+_LABELS = {"name": True, "description": True, "material": {"name", "source", "valid_strain"}}
 """Fields that name a design without changing what is built or decided."""
 
 
@@ -125,6 +125,8 @@ class Design(Parameters):
         Independent of the order of keys, the spelling of numbers, and of names and descriptions.
         """
         content = self.model_dump(mode="json", exclude=_LABELS)  # type: ignore[arg-type]
+        if not self.material.higher:  # a material of before Yeoh's terms keeps its digest
+            del content["material"]["higher"]
         canonical = json.dumps(_without_signed_zero(content), sort_keys=True, allow_nan=False)
         return hashlib.sha256(canonical.encode("ascii")).hexdigest()
 
@@ -195,7 +197,7 @@ def _read(given: str | Path) -> str:
             raise DesignError(_not_found(str(given), path))
         if path.stat().st_size > LARGEST_FILE:
             raise DesignError(f"{quoted(str(given))} is larger than 1 MB and is no design.")
-        return path.read_text("utf-8")
+        return path.read_text("utf-8-sig")  # some editors put a mark first
     except UnicodeDecodeError:
         raise DesignError(f"{quoted(str(given))} is not a text file in UTF-8.") from None
     except (OSError, ValueError) as error:  # ValueError: a null byte in the path

@@ -16,13 +16,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from bellows_design.budget import DEFAULT, Budget
 from bellows_design.design import Design
 from bellows_design.models import HALF, UNIT_CELL, Model, choose, shortened
 from bellows_design.progress import Progress, Silence
 
 if TYPE_CHECKING:
+    from bellows_design.analysis import PlannedMesh
     from bellows_design.contact import Contact
     from bellows_design.solids import NamedSolid
+    from bellows_design.validity import ReachedStrain
     from solver import Event, PathPoint, Peak, Problem, Solution, SolverOptions
     from solver.arrays import Reals
 
@@ -30,9 +33,6 @@ SILENCE = Silence()
 
 LEAST_ANGLE_ERROR, LEAST_STRESS_ERROR, ENDS_ERROR, TWO_MESHES = 0.005, 0.02, 0.15, 2.0
 """Floors and factors of the error estimates; see ``Evaluation.error_estimate``."""
-
-MOST_ELEMENTS = 60_000
-"""No mesh is refined past this: the factorization would take about 6 GiB."""
 
 ROUGH = 1e-3
 """Newton tolerance on meshes that are only a step to the next, in units of the body's diagonal."""
@@ -74,6 +74,7 @@ class Evaluation:
     seconds: Mapping[str, float]
     pressures: tuple[float, ...] = ()
     ends: Solution | None = None
+    budget: Budget = DEFAULT
 
     @property
     def finest(self) -> Solution:
@@ -91,9 +92,17 @@ class Evaluation:
 
     @property
     def can_refine(self) -> bool:
-        """True if there is a finer mesh to go to."""
-        elements = len(self.finest.problem.mesh.tets)
-        return self.converged and elements * self.model.growth <= MOST_ELEMENTS
+        """True if there is a finer mesh to go to, and memory for it."""
+        return self.converged and self.next_mesh.fits(self.budget)
+
+    @cached_property
+    def next_mesh(self) -> PlannedMesh:
+        """The mesh after the finest."""
+        from bellows_design.analysis import finer_plan, first_plan
+
+        if not self.solutions:
+            return first_plan(self.solid, self.design)
+        return finer_plan(self.solid, self.design, self.finest, self.model.refinement)
 
     @property
     def message(self) -> str:
@@ -101,6 +110,18 @@ class Evaluation:
         if self.ends is not None and not self.ends.converged:
             return f"the ends: {self.ends.message}"
         return self.finest.message
+
+    @property
+    def stable(self) -> bool | None:
+        """Whether the state found is stable under its pressure; None if that is unknown."""
+        known = {solution.stable for solution in self._all}
+        return None if None in known else known == {True}
+
+    @property
+    def limit_pressure_mpa(self) -> float | None:
+        """Pressure at which the walls give way, MPa, if that was met on the way."""
+        limits = [solution.limit for solution in self._all if solution.limit is not None]
+        return min(limits, key=abs, default=None)
 
     @property
     def pressure_mpa(self) -> float:
@@ -207,6 +228,18 @@ class Evaluation:
             return contact_of(bellows, *chain(bellows, solution))
         return contact_of(bellows, solution.problem.mesh, solution.displacement)
 
+    @cached_property
+    def strain(self) -> ReachedStrain:
+        """How far the material is strained on the finest mesh, and whether it is known there."""
+        from bellows_design.validity import reached_strain
+
+        return reached_strain(self.design.material, self.finest)
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """Sentences on what makes the numbers less than they seem."""
+        return self.strain.warnings
+
     def to_dict(self) -> dict[str, Any]:
         """Plain values for JSON; the README says what they mean."""
         from bellows_design.versions import versions
@@ -219,10 +252,14 @@ class Evaluation:
             "pressure_mpa": self.pressure_mpa,
             "converged": self.converged,
             "message": self.message,
+            "stable": self.stable,
+            "limit_pressure_mpa": self.limit_pressure_mpa,
             "bending_angle_deg": self.bending_angle_deg,
             "max_von_mises_mpa": self.max_von_mises_mpa,
             "max_von_mises_position_mm": list(self.max_von_mises_position_mm),
             "cavity_volume_mm3": self.cavity_volume_mm3,
+            "strain": self.strain.to_dict(),
+            "warnings": list(self.warnings),
             "contact": asdict(self.contact),
             "error_estimate": asdict(self.error_estimate),
             "mesh": _size(self.finest),
@@ -245,22 +282,23 @@ def evaluate(
     accuracy_percent: float | None = None,
     pressures: Sequence[float] = (),
     progress: Progress = SILENCE,
+    budget: Budget = DEFAULT,
 ) -> Evaluation:
     """Evaluate ``design`` at its design pressure, and at the lower ``pressures`` (MPa).
 
     ``model`` is ``auto``, ``unit-cell``, ``half`` or ``full``. With ``accuracy_percent`` the mesh
-    is refined until both error estimates keep it, or the meshes become too large: the estimates
-    then say what was reached. A load that cannot be reached gives an evaluation with
+    is refined until both error estimates keep it, or the next mesh would exceed the ``budget``: the
+    estimates then say what was reached. A load that cannot be reached gives an evaluation with
     ``converged`` False.
 
     Raises:
-        ValueError: unknown model, accuracy or pressures out of bounds, or a geometry the CAD
-            kernel refuses.
-        MeshingError: no usable mesh.
+        ValueError: unknown model, accuracy or pressures out of bounds, a geometry the CAD kernel
+            refuses, or a first mesh that exceeds the budget.
+        MeshingError: no usable mesh, or none in time.
     """
     _check(design, accuracy_percent, pressures)
-    evaluation = started(design, *choose(design, model), pressures, progress)
-    while evaluation.can_refine and not _enough(evaluation, accuracy_percent):
+    evaluation = started(design, *choose(design, model), pressures, progress, budget)
+    while not _enough(evaluation, accuracy_percent) and evaluation.can_refine:
         evaluation = refined(evaluation, progress)
     return evaluation
 
@@ -271,13 +309,19 @@ def started(
     reason: str,
     pressures: Sequence[float] = (),
     progress: Progress = SILENCE,
+    budget: Budget = DEFAULT,
 ) -> Evaluation:
     """``design`` on the coarsest mesh of ``model``, with the ends if that is the unit cell."""
+    from solver import meshing_process
+
+    meshing_process.start()  # loads Gmsh while the solid is built
     progress.stage(f"geometry of the {model.name}")
     start = time.perf_counter()
     solid = model.solid(design)
     spent = {"geometry": time.perf_counter() - start, "mesh": 0.0, "solve": 0.0}
-    blank = Evaluation(design, model, reason, solid, (), spent, tuple(sorted(pressures)))
+    blank = Evaluation(
+        design, model, reason, solid, (), spent, tuple(sorted(pressures)), budget=budget
+    )
     evaluation = refined(blank, progress)
     if model is UNIT_CELL and evaluation.converged:
         return _with_ends(evaluation, progress)
@@ -286,16 +330,12 @@ def started(
 
 def refined(evaluation: Evaluation, progress: Progress = SILENCE) -> Evaluation:
     """The same evaluation on one finer mesh, started from the finest solution at hand."""
-    from bellows_design.analysis import finer_mesh, first_mesh
     from solver import SolverOptions, transfer
 
     design, model, level = evaluation.design, evaluation.model, len(evaluation.solutions)
     progress.stage(f"mesh {level + 1}")
     began = time.perf_counter()
-    if level == 0:
-        mesh = first_mesh(evaluation.solid, design)
-    else:
-        mesh = finer_mesh(evaluation.solid, design, evaluation.finest, model.refinement)
+    mesh = evaluation.next_mesh.made(evaluation.budget)
     meshed = time.perf_counter()
     progress.stage(f"solve {level + 1}, {len(mesh.tets)} tetrahedra")
     initial = transfer(evaluation.finest, mesh) if level else None
@@ -314,7 +354,7 @@ def refined(evaluation: Evaluation, progress: Progress = SILENCE) -> Evaluation:
 
 def _with_ends(evaluation: Evaluation, progress: Progress) -> Evaluation:
     """With the solution of a short actuator, on the mesh size of the coarsest cell."""
-    from bellows_design.analysis import first_mesh
+    from bellows_design.analysis import first_plan
     from solver import SolverOptions
 
     progress.stage("ends: an actuator of one bubble")
@@ -322,7 +362,7 @@ def _with_ends(evaluation: Evaluation, progress: Progress) -> Evaluation:
     short = shortened(evaluation.design)
     solid = HALF.solid(short)
     built = time.perf_counter()
-    mesh = first_mesh(solid, short)
+    mesh = first_plan(solid, short).made(evaluation.budget)
     meshed = time.perf_counter()
     options = SolverOptions(tolerance=ROUGH, first_step=0.35)  # it bends little: long steps do
     problem = HALF.problem(short, mesh)

@@ -17,14 +17,18 @@ import json
 import math
 import os
 import shutil
-import tempfile
 from collections.abc import Mapping
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
 from bellows_design.approval import Verdict
-from bellows_design.atomic import open_to_readers, replacing
+from bellows_design.atomic import (
+    open_to_readers,
+    remove_leftovers,
+    replacing,
+    temporary_beside,
+)
 from bellows_design.errors import DesignError, quoted
 from bellows_design.formats import WRITERS, Part
 
@@ -46,8 +50,10 @@ def export_approved(
     require_place(part.name, output_root)
     target = output_root / part.name
     output_root.mkdir(parents=True, exist_ok=True)
-    fresh = Path(tempfile.mkdtemp(prefix=f".{part.name}-", dir=output_root))
+    remove_leftovers(target)
+    fresh = temporary_beside(target)
     try:
+        fresh.mkdir(mode=0o700)
         _fill(fresh, part, verdict, grounds)
         _swap(fresh, target)
     finally:
@@ -74,6 +80,7 @@ def withdraw(name: str, output_root: Path) -> Path | None:
     """
     _require_plain(name)
     folder = output_root / name
+    remove_leftovers(folder)
     listed = _listed_files(folder)
     if listed is None:
         return None
@@ -130,17 +137,16 @@ def _fingerprint(file: Path) -> dict[str, Any]:
 
 
 def _swap(fresh: Path, target: Path) -> None:
-    """Put ``fresh`` in ``target``'s place; on failure ``target`` is as before."""
-    retired = fresh.with_name(f"{fresh.name}-retired")
-    with suppress(FileNotFoundError):
-        os.rename(target, retired)
+    """Put ``fresh`` in ``target``'s place; on failure or interruption ``target`` is as before."""
+    retired = temporary_beside(target)
     try:
-        os.rename(fresh, target)
-    except OSError:
         with suppress(FileNotFoundError):
+            os.rename(target, retired)
+        os.rename(fresh, target)
+    finally:
+        if retired.exists() and not target.exists():
             os.rename(retired, target)
-        raise
-    shutil.rmtree(retired, ignore_errors=True)
+        shutil.rmtree(retired, ignore_errors=True)
 
 
 def _require_ours(folder: Path) -> None:

@@ -12,7 +12,7 @@ from pydantic import ValidationError
 from bellows_design.atomic import replacing
 from bellows_design.errors import DesignError, quoted, sentences
 from bellows_design.fit_report import fit_content, fit_table
-from bellows_design.fitting import BEST, Fit
+from bellows_design.fitting import BEST, YEOH, Fit
 from bellows_design.fitting import fit as fit_measurements
 from bellows_design.materials import Material
 from bellows_design.measurements import Measurements, load_measurements
@@ -38,7 +38,7 @@ def fit(
     content = fit_content(measurements, model, choice)
     material, refused = _material(measurements, choice.fit, output, yield_strength)
     if output is not None and material is not None:
-        write_material(material, measurements.valid_strain, output)
+        write_material(material, output)
         content["material_file"] = str(output)
     if plot is not None:
         from bellows_design.fit_picture import plot_fit
@@ -49,37 +49,45 @@ def fit(
     return Answer(content, fit_table(content), DONE if refused is None else REFUSED)
 
 
-def write_material(material: Material, valid_strain: tuple[float, float], path: Path) -> None:
-    """Write ``material`` as TOML, in the form of the library's; completely or not at all.
-
-    The range of principal nominal strains it was fitted over stands in a comment.
-    """
+def write_material(material: Material, path: Path) -> None:
+    """Write ``material`` as TOML, in the form of the library's; completely or not at all."""
     import tomli_w
 
-    table = tomli_w.dumps(material.model_dump(mode="json", exclude_none=True))
-    low, high = valid_strain
-    text = f"# valid_strain = [{low:.4g}, {high:.4g}]  # principal nominal strains of the tests\n"
+    table = material.model_dump(mode="json", exclude_none=True)
+    if not material.higher:
+        del table["higher"]
     with replacing(path) as temporary:
-        temporary.write_text(text + table, "utf-8")
+        temporary.write_text(tomli_w.dumps(table), "utf-8")
 
 
 def _material(
     data: Measurements, fit: Fit, output: Path | None, yield_strength: float | None
 ) -> tuple[Material | None, str | None]:
     """The fitted material, if one is wanted and the fit can be one, and why it cannot."""
-    if fit.vanished or not fit.stable:
-        what = "is unstable" if not fit.stable else "has a term that adds nothing"
+    low, high = data.valid_strain
+    stable = fit.stable or (fit.model == YEOH and fit.stability.covers(1 + low, 1 + high))
+    if fit.vanished or not stable:
+        what = "is unstable" if not stable else "has a term that adds nothing"
         return None, f"{fit.model} {what}; a design takes no such material."
     if output is None or yield_strength is None:
         return None, None
     table = {
         "name": _name(output),
+        "model": YEOH if fit.model == YEOH else "ogden",
         "mu": [float(f"{value:.9g}") for value in fit.mu],
         "alpha": [float(f"{value:.9g}") for value in fit.alpha],
+        "higher": [float(f"{value:.9g}") for value in fit.higher],
         "yield_strength": yield_strength,
+        "valid_strain": _valid_strain(data),
         "source": _source(data, fit),
     }
     return _validated(table), None
+
+
+def _valid_strain(data: Measurements) -> list[float] | None:
+    """Range of the tests, rounded; None where it does not hold 0 on its inside."""
+    low, high = (round(end, 4) for end in data.valid_strain)
+    return [low, high] if -1 < low < 0 < high else None
 
 
 def _validated(table: dict[str, Any]) -> Material:

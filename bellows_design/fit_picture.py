@@ -45,7 +45,11 @@ def _draw_stress(axes: Axes, data: Measurements, fit: Fit) -> None:
         label = name if stretch.size else f"{name}, not measured"
         axes.plot(stretch, stress, "o", markersize=4, alpha=0.5, color=colour)
         axes.plot(
-            line, nominal_stress(mode, line, fit.mu, fit.alpha), style, color=colour, label=label
+            line,
+            nominal_stress(mode, line, fit.mu, fit.alpha, fit.higher),
+            style,
+            color=colour,
+            label=label,
         )
     reach = 1.15 * np.abs(data.stress).max()
     axes.set(xlabel="stretch", ylabel="nominal stress, MPa")
@@ -60,7 +64,7 @@ def _draw_errors(axes: Axes, data: Measurements, fit: Fit) -> None:
     for (name, mode), colour in zip(MODES.items(), COLOURS, strict=False):
         stretch, stress = data.of(name)
         if stretch.size:
-            error = nominal_stress(mode, stretch, fit.mu, fit.alpha) - stress
+            error = nominal_stress(mode, stretch, fit.mu, fit.alpha, fit.higher) - stress
             axes.plot(stretch, error, "o", markersize=4, color=colour, label=name)
     axes.axhline(0, color="black", linewidth=0.8)
     axes.set(xlabel="stretch", ylabel="model less measurement, MPa")

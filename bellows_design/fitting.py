@@ -6,7 +6,7 @@ stress is linear in μ, and exponents are judged with the best μ ≥ 0 for them
 least squares): first all of a grid, then the best few of it are refined.
 
 Every μ is kept positive, Hill's inequality in Abaqus's form, because a design takes no other
-material. Yeoh's model, a polynomial of the first invariant, is not of Ogden's form and left out.
+material. Yeoh's model, a polynomial of the first invariant, is fitted if asked for by name.
 
 Intervals are Student's, at 95 %, from the Jacobian at the solution, linear in α and in ln μ, since
 μ is positive; where they are wide the truth may be wider still. Models are compared by the
@@ -83,10 +83,17 @@ MODELS: dict[str, tuple[float | None, ...]] = {
 }
 """Model -> the exponent of each term, None where it is fitted. Smallest first."""
 
+YEOH = "yeoh"
+CHOICES = (BEST, *MODELS, YEOH)
+"""What may be asked for. ``best`` is one of ``MODELS``."""
+
 
 @dataclass(frozen=True)
 class Constant:
-    """A fitted constant: value, standard error and 95 % interval; an exponent may be given."""
+    """A fitted constant: value, standard error and 95 % interval; an exponent may be given.
+
+    ``signed`` is one of Yeoh's, which may be negative.
+    """
 
     name: str
     unit: str
@@ -95,12 +102,18 @@ class Constant:
     low: float
     high: float
     fixed: bool = False
+    signed: bool = False
 
     @property
     def determined(self) -> bool:
-        """False if the measurements leave it open: μ by a factor of 10, α by 2 and by itself."""
+        """False if the measurements leave it open: μ by a factor of 10, α by 2 and by itself.
+
+        Of a signed constant the measurements must tell the sign.
+        """
         if self.fixed:
             return True
+        if self.signed:
+            return self.low * self.high > 0
         if self.unit:
             return self.high < OPEN_FACTOR * self.value
         return self.high - self.value < max(abs(self.value), OPEN_EXPONENT)
@@ -117,7 +130,7 @@ class Misfit:
 
 @dataclass(frozen=True)
 class Fit:
-    """A fitted model. Terms are in the order of falling ``mu`` (MPa)."""
+    """A fitted model. Terms are in the order of falling ``mu``; ``higher`` is of Yeoh's; MPa."""
 
     model: str
     mu: tuple[float, ...]
@@ -131,6 +144,7 @@ class Fit:
     vanished: bool
     rivalry: float
     stability: Stability
+    higher: tuple[float, ...] = ()
 
     @property
     def unique(self) -> bool:
@@ -166,7 +180,7 @@ class Choice(NamedTuple):
 
 
 @dataclass(frozen=True)
-class _Problem:
+class Weighted:
     """Measurements in the form the solvers want; ``stress`` in units of ``unit`` MPa."""
 
     mean: Reals
@@ -177,7 +191,7 @@ class _Problem:
     unit: float
 
     @classmethod
-    def of(cls, data: Measurements) -> _Problem:
+    def of(cls, data: Measurements) -> Weighted:
         means = np.array([mode.mean for mode in MODES.values()])
         gaps = np.array([mode.gap for mode in MODES.values()])
         unit = float(np.abs(data.stress).max())
@@ -186,7 +200,7 @@ class _Problem:
         logs = np.log(data.stretch)
         return cls(means[data.mode], gaps[data.mode], logs, data.stress / unit, weight, unit)
 
-    def thinned(self) -> _Problem:
+    def thinned(self) -> Weighted:
         """At most about ``FEW_POINTS`` of the points that tell, evenly from every test."""
         order = np.lexsort((self.logs, self.gap))
         order = order[self.logs[order] != 0]
@@ -214,7 +228,7 @@ class _Problem:
 
 
 def fit(data: Measurements, model: str = BEST) -> Choice:
-    """Fit ``model`` to ``data``: a name of ``MODELS``, or ``best``.
+    """Fit ``model`` to ``data``: one of ``CHOICES``.
 
     ``best`` is the smallest model, of those the measurements determine if there are any, whose
     AICc is within 10 of the lowest; unstable models and those with an idle term do not count.
@@ -223,10 +237,11 @@ def fit(data: Measurements, model: str = BEST) -> Choice:
     if model != BEST:
         only = fit_model(data, model)
         return Choice(only, (only,))
-    problem = _Problem.of(data)
+    problem = Weighted.of(data)
     possible = [name for name in MODELS if _enough(problem, name)]
     if not possible:
-        raise DesignError(_too_few(data, problem, next(iter(MODELS))))
+        smallest = next(iter(MODELS))
+        raise DesignError(_too_few(data, problem, smallest, _free(MODELS[smallest])))
     tried: list[Fit] = []
     for name in possible:
         if not (tried and _is_hopeless(name, tried)):
@@ -235,22 +250,22 @@ def fit(data: Measurements, model: str = BEST) -> Choice:
 
 
 def fit_model(data: Measurements, model: str) -> Fit:
-    """Fit one model of ``MODELS``. Raises ``DesignError``."""
+    """Fit one model of ``MODELS``, or Yeoh's. Raises ``DesignError``."""
+    problem = Weighted.of(data)
+    if model == YEOH:
+        from bellows_design.fit_yeoh import CONSTANTS, fit_yeoh
+
+        if problem.telling < len(CONSTANTS) + 2:
+            raise DesignError(_too_few(data, problem, model, len(CONSTANTS)))
+        return fit_yeoh(data, problem)
     if model not in MODELS:
-        raise DesignError(_unknown(model))
-    problem = _Problem.of(data)
+        raise DesignError(f"unknown model {quoted(model)}{did_you_mean(model, CHOICES)}")
     if not _enough(problem, model):
-        raise DesignError(_too_few(data, problem, model))
+        raise DesignError(_too_few(data, problem, model, _free(MODELS[model])))
     return _judged(data, problem, model, _solved(problem, MODELS[model]))
 
 
-def _unknown(model: str) -> str:
-    if model.lower() == "yeoh":
-        return "Yeoh's model is not of Ogden's form, the one the solver takes; try ogden2."
-    return f"unknown model {quoted(model)}{did_you_mean(model, (BEST, *MODELS))}"
-
-
-def _enough(problem: _Problem, model: str) -> bool:
+def _enough(problem: Weighted, model: str) -> bool:
     return problem.telling >= _free(MODELS[model]) + 2
 
 
@@ -258,8 +273,7 @@ def _free(form: tuple[float | None, ...]) -> int:
     return len(form) + sum(exponent is None for exponent in form)
 
 
-def _too_few(data: Measurements, problem: _Problem, model: str) -> str:
-    count = _free(MODELS[model])
+def _too_few(data: Measurements, problem: Weighted, model: str, count: int) -> str:
     return (
         f"{quoted(data.name)} has {problem.telling} points away from stretch 1 but {model}, with "
         f"{count} constants, needs at least {count + 2}."
@@ -291,7 +305,7 @@ class _Solution(NamedTuple):
     rivalry: float
 
 
-def _solved(problem: _Problem, form: tuple[float | None, ...]) -> _Solution:
+def _solved(problem: Weighted, form: tuple[float | None, ...]) -> _Solution:
     few = problem.thinned()
     if None not in form:
         alpha = np.array([float(exponent or 0.0) for exponent in form])
@@ -307,7 +321,7 @@ def _solved(problem: _Problem, form: tuple[float | None, ...]) -> _Solution:
     return _Solution(*best, rivalry)
 
 
-def _distance(problem: _Problem, ours: tuple[Reals, Reals], other: tuple[Reals, Reals]) -> float:
+def _distance(problem: Weighted, ours: tuple[Reals, Reals], other: tuple[Reals, Reals]) -> float:
     """Largest relative difference of two sets' stresses, in all tests over the range measured."""
     line = np.linspace(problem.logs.min(), problem.logs.max(), 21)
     stretch = np.exp(line[line != 0])
@@ -319,7 +333,7 @@ def _distance(problem: _Problem, ours: tuple[Reals, Reals], other: tuple[Reals, 
     return max(parts)
 
 
-def _starts(problem: _Problem, terms: int) -> list[Reals]:
+def _starts(problem: Weighted, terms: int) -> list[Reals]:
     """The best exponents of the grid, best first; none with a term that goes unused if possible."""
     grid = np.array(EXPONENTS, float)
     columns = problem.columns(grid)
@@ -341,7 +355,7 @@ def _best_mu(columns: Reals, target: Reals) -> tuple[Reals, float]:
     return scaled / scale, float(error)
 
 
-def _refined(problem: _Problem, alpha: Reals) -> tuple[Reals, Reals]:
+def _refined(problem: Weighted, alpha: Reals) -> tuple[Reals, Reals]:
     """The local optimum (μ, α) next to exponents: least squares in α alone, each with its best μ.
 
     So the narrow valley in which a small μ trades against its α costs no steps (variable
@@ -361,22 +375,22 @@ def _refined(problem: _Problem, alpha: Reals) -> tuple[Reals, Reals]:
     return mu, result.x
 
 
-def _jacobian(problem: _Problem, mu: Reals, alpha: Reals) -> Reals:
+def _jacobian(problem: Weighted, mu: Reals, alpha: Reals) -> Reals:
     return np.hstack([problem.columns(alpha), problem.slopes(alpha) * mu])
 
 
-def _squares(problem: _Problem, mu: Reals, alpha: Reals) -> float:
+def _squares(problem: Weighted, mu: Reals, alpha: Reals) -> float:
     return float(((problem.columns(alpha) @ mu - problem.target) ** 2).sum())
 
 
-def _judged(data: Measurements, problem: _Problem, model: str, solution: _Solution) -> Fit:
+def _judged(data: Measurements, problem: Weighted, model: str, solution: _Solution) -> Fit:
     order = np.argsort(-solution.mu, kind="stable")
     fixed = np.array([exponent is not None for exponent in MODELS[model]])[order]
     mu, alpha = solution.mu[order], solution.alpha[order]
     squares, count = _squares(problem, mu, alpha), _free(MODELS[model])
     errors = _standard_errors(problem, mu, alpha, fixed, squares)
     constants = _constants(mu * problem.unit, alpha, fixed, errors, problem.telling - count)
-    difference = _difference(data, mu * problem.unit, alpha)
+    difference = difference_of(data, mu * problem.unit, alpha)
     relative = math.sqrt(squares / problem.telling)
     return Fit(
         model=model,
@@ -384,10 +398,10 @@ def _judged(data: Measurements, problem: _Problem, model: str, solution: _Soluti
         alpha=tuple(alpha.tolist()),
         constants=constants,
         points=data.stress.size,
-        r_squared=_r_squared(data.stress, difference),
+        r_squared=r_squared_of(data.stress, difference),
         relative_error=relative,
-        misfit=_misfit(data, difference),
-        aicc=_aicc(relative, problem.telling, count + 1),
+        misfit=misfit_of(data, difference),
+        aicc=aicc_of(relative, problem.telling, count + 1),
         vanished=bool((np.abs(problem.columns(alpha) * mu).max(axis=0) < VANISHED).any()),
         rivalry=solution.rivalry,
         stability=stability(mu * problem.unit, alpha),
@@ -395,7 +409,7 @@ def _judged(data: Measurements, problem: _Problem, model: str, solution: _Soluti
 
 
 def _standard_errors(
-    problem: _Problem, mu: Reals, alpha: Reals, fixed: NDArray[np.bool_], squares: float
+    problem: Weighted, mu: Reals, alpha: Reals, fixed: NDArray[np.bool_], squares: float
 ) -> Reals:
     """Of (μ in MPa, α), infinite where the measurements tell nothing and 0 where α is given."""
     free = np.concatenate([np.full(mu.size, True), ~fixed])
@@ -441,28 +455,30 @@ def _exp(x: float) -> float:
     return math.exp(x) if x < 700 else math.inf
 
 
-def _difference(data: Measurements, mu: Reals, alpha: Reals) -> Reals:
+def difference_of(
+    data: Measurements, mu: Reals, alpha: Reals, higher: Sequence[float] = ()
+) -> Reals:
     """(n,) model less measurement, MPa."""
     result = -data.stress
     for number, mode in enumerate(MODES.values()):
         chosen = data.mode == number
-        result[chosen] += nominal_stress(mode, data.stretch[chosen], mu, alpha)
+        result[chosen] += nominal_stress(mode, data.stretch[chosen], mu, alpha, higher)
     return result
 
 
-def _r_squared(stress: Reals, difference: Reals) -> float:
+def r_squared_of(stress: Reals, difference: Reals) -> float:
     """1 less the part of the variance that is left; 0 where there is no variance."""
     variance = float(((stress - stress.mean()) ** 2).sum())
     return 1 - float((difference**2).sum()) / variance if variance > 0 else 0.0
 
 
-def _misfit(data: Measurements, difference: Reals) -> Misfit:
+def misfit_of(data: Measurements, difference: Reals) -> Misfit:
     worst = int(np.abs(difference).argmax())
     mode = list(MODES)[data.mode[worst]]
     return Misfit(float(abs(difference[worst])), mode, float(data.stretch[worst]))
 
 
-def _aicc(relative: float, points: int, count: int) -> float:
+def aicc_of(relative: float, points: int, count: int) -> float:
     if points <= count + 1:
         return math.inf
     fit = points * math.log(max(relative, BEST_ERROR) ** 2)

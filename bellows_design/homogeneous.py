@@ -8,6 +8,9 @@ with the last of them is free of stress. Then the nominal stress of the measured
 
 a x the mean and b x the difference of the first and the last log stretch, sinhc z = sinh z / z.
 Nothing is divided by αₖ or by λ − 1: α = 0 is Hencky's limit, and small strains keep all digits.
+
+Yeoh's terms Σ Cᵢ₀ (I₁ − 3)ⁱ of order i ≥ 2 act as a term with α = 2 whose μ = 2 dW/dI₁ depends on
+the strain.
 """
 
 from __future__ import annotations
@@ -51,11 +54,45 @@ MODES = {mode.name: mode for mode in (UNIAXIAL, BIAXIAL, PLANAR)}
 
 
 def nominal_stress(
-    mode: Mode, stretch: Reals, mu: Sequence[float] | Reals, alpha: Sequence[float] | Reals
+    mode: Mode,
+    stretch: Reals,
+    mu: Sequence[float] | Reals,
+    alpha: Sequence[float] | Reals,
+    higher: Sequence[float] | Reals = (),
 ) -> Reals:
-    """Nominal stress in MPa at stretches (n,), of constants ``mu`` in MPa and ``alpha``."""
+    """Nominal stress at stretches (n,), of ``mu``, ``alpha`` and ``higher`` = C₂₀, C₃₀, …; MPa."""
     logs = np.log(np.asarray(stretch, float))
-    return unit_stresses(mode.mean, mode.gap, logs, np.asarray(alpha, float)) @ np.asarray(mu)
+    stress = unit_stresses(mode.mean, mode.gap, logs, np.asarray(alpha, float)) @ np.asarray(mu)
+    if not len(higher):
+        return stress
+    slope, _ = invariant_slopes(np.outer(logs, mode.exponents), higher)
+    square = unit_stresses(mode.mean, mode.gap, logs, np.array([2.0]))[:, 0]
+    return stress + 2 * slope * square
+
+
+def first_invariant(logs: Reals) -> Reals:
+    """I₁ − 3 = Σ (exp 2eᵢ − 1 − 2eᵢ) of isochoric log stretches (…, 3), by series where small."""
+    twice = 2 * np.asarray(logs, float)
+    small = np.abs(twice) < 0.5
+    safe, square = np.where(small, 1.0, twice), np.where(small, twice, 0.0)
+    term = square * square / 2
+    series = term.copy()
+    for order in range(3, 18):
+        term = term * square / order
+        series += term
+    total: Reals = np.where(small, series, np.expm1(safe) - safe).sum(axis=-1)
+    return total
+
+
+def invariant_slopes(logs: Reals, higher: Sequence[float] | Reals) -> tuple[Reals, Reals]:
+    """dW/dI₁ and d²W/dI₁² in MPa of ``higher`` = C₂₀, C₃₀, … at log stretches (…, 3)."""
+    if not len(higher):
+        none = np.zeros(np.shape(logs)[:-1])
+        return none, none
+    falling = np.array([*reversed(higher), 0.0, 0.0])
+    invariant, slope = first_invariant(logs), np.polyder(falling)
+    second = np.polyder(slope)
+    return np.asarray(np.polyval(slope, invariant)), np.asarray(np.polyval(second, invariant))
 
 
 def unit_stresses(mean: float | Reals, gap: float | Reals, logs: Reals, alpha: Reals) -> Reals:

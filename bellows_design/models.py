@@ -163,7 +163,8 @@ def sharp_edge_radius(design: Design) -> float:
 def _material(design: Design) -> Ogden:
     from solver import Ogden
 
-    return Ogden(mu=design.material.mu, alpha=design.material.alpha)
+    material = design.material
+    return Ogden(mu=material.mu, alpha=material.alpha, higher=material.higher)
 
 
 def _axis(bellows: BellowsParameters) -> SlenderAxis:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from bellows_design.budget import DEFAULT, Budget
 from bellows_design.design import Design
 from bellows_design.formats import Part
 from bellows_design.progress import Progress, Silence
@@ -69,11 +70,17 @@ def check_dict(design: Design, report: PrintabilityReport) -> dict[str, Any]:
     return {"design": design.name, "digest": design.digest, **report.to_dict()}
 
 
-def run(design: Design, output_root: Path, progress: Progress = SILENCE) -> Outcome:
+def run(
+    design: Design,
+    output_root: Path,
+    progress: Progress = SILENCE,
+    budget: Budget = DEFAULT,
+) -> Outcome:
     """Take ``design`` all the way; its files appear below ``output_root`` only if it is approved.
 
     Every rule is applied even after one has failed, so that a refusal names all reasons. Where
-    only the estimated error keeps the verdict open, the mesh is refined and decided upon again.
+    only the estimated error keeps the verdict open, the mesh is refined and decided upon again, as
+    far as the ``budget`` allows.
     """
     from bellows_design.approval import decide
     from bellows_design.evaluation import evaluate, refined
@@ -84,7 +91,7 @@ def run(design: Design, output_root: Path, progress: Progress = SILENCE) -> Outc
     part = build_part(design)
     progress.stage("check")
     report = check(design, part)
-    evaluation = evaluate(design, progress=progress)
+    evaluation = evaluate(design, progress=progress, budget=budget)
     while decide(design, report, evaluation).undecided and evaluation.can_refine:
         evaluation = refined(evaluation, progress)
     verdict = decide(design, report, evaluation)

@@ -1,14 +1,13 @@
-"""Where an Ogden material is stable: Hill's and Drucker's inequality along the three tests.
+"""Where a material is stable: Hill's and Drucker's inequality, at any strain and along tests.
 
 An incompressible material is stable at a state if every small change of strain costs work,
-dτ : dε > 0 with Kirchhoff stress τ and logarithmic strain ε; this is Drucker's postulate as Abaqus
-checks it and, for log strain, Hill's inequality. With kᵢ = ∂τᵢ/∂eᵢ = Σ 2 μ exp(α eᵢ) it holds for
-changes along the principal axes if
-
-    k₁ + k₂ + k₃ > 0  and  k₁k₂ + k₂k₃ + k₃k₁ > 0,
-
-and for shear between axes i and j if (τᵢ − τⱼ)/(eᵢ − eⱼ) > 0 (Baker and Ericksen). Where every μ
-is positive all of it holds at every strain; a set of mixed signs has to be asked state by state.
+dτ : dε > 0 with Kirchhoff stress τ and logarithmic strain ε. For changes along the principal axes
+this is Drucker's postulate as Abaqus checks it: ∂τᵢ/∂eⱼ = kᵢ δᵢⱼ + 4 W″ λᵢ² λⱼ² must be positive
+definite on changes that keep the volume, with kᵢ = Σ 2 μ exp(α eᵢ) and W″ of Yeoh's terms; without
+those, k₁ + k₂ + k₃ > 0 and k₁k₂ + k₂k₃ + k₃k₁ > 0. For all changes it is Hill's inequality: shear
+between axes i and j also needs (τᵢ − τⱼ)/(eᵢ − eⱼ) > 0 (Baker and Ericksen). Where every μ is
+positive and no Cᵢ₀ negative all of it holds at every strain; a set of mixed signs has to be asked
+state by state.
 
 Stable material may still neck: past a peak of the nominal stress a dead load finds no equilibrium.
 That peak is reported by itself.
@@ -22,7 +21,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bellows_design.homogeneous import MODES, Mode, Reals
+from bellows_design.homogeneous import MODES, Mode, Reals, invariant_slopes
 
 LOWEST, HIGHEST = 0.1, 10.0
 """Stretches between which is looked, along every test."""
@@ -74,19 +73,71 @@ class Stability:
         return self.shear_modulus > 0 and all(each.covers(low, high) for each in self.ranges)
 
 
-def stability(mu: Sequence[float] | Reals, alpha: Sequence[float] | Reals) -> Stability:
-    """Stable ranges of constants of either sign, ``mu`` in MPa, in tension and compression."""
-    constants = np.asarray(mu, float), np.asarray(alpha, float)
-    ranges = tuple(_range_of(mode, *constants) for mode in MODES.values())
-    return Stability(float(constants[0].sum()), ranges)
+@dataclass(frozen=True, eq=False)
+class Constants:
+    """``mu`` (MPa) and ``alpha`` (terms,) of Ogden, ``higher`` = C₂₀, C₃₀, … (MPa) of Yeoh."""
+
+    mu: Reals
+    alpha: Reals
+    higher: Reals
+
+    @classmethod
+    def of(
+        cls,
+        mu: Sequence[float] | Reals,
+        alpha: Sequence[float] | Reals,
+        higher: Sequence[float] | Reals = (),
+    ) -> Constants:
+        """From any sequences of numbers, of either sign."""
+        return cls(*(np.asarray(values, float) for values in (mu, alpha, higher)))
 
 
-def _range_of(mode: Mode, mu: Reals, alpha: Reals) -> StableRange:
+def stability(
+    mu: Sequence[float] | Reals,
+    alpha: Sequence[float] | Reals,
+    higher: Sequence[float] | Reals = (),
+) -> Stability:
+    """Stable ranges of constants of either sign, in MPa, in tension and compression."""
+    constants = Constants.of(mu, alpha, higher)
+    ranges = tuple(_range_of(mode, constants) for mode in MODES.values())
+    return Stability(float(constants.mu.sum()), ranges)
+
+
+def drucker_margin(logs: Reals, constants: Constants) -> Reals:
+    """(n,) least stiffness against isochoric changes along the axes at states (n, 3), MPa.
+
+    ``logs`` are isochoric principal log stretches; where it is not positive Drucker's inequality
+    fails.
+    """
+    first, second, third = _stiffnesses(logs, constants).T
+    _, curvature = invariant_slopes(logs, constants.higher)
+    squares = np.exp(2 * logs)
+    gaps = (np.roll(squares, -1, axis=1) - np.roll(squares, -2, axis=1)) ** 2
+    trace = (2 * (first + second + third) + 4 * curvature * gaps.sum(axis=1)) / 3
+    product = first * second + second * third + third * first
+    cross = first * gaps[:, 0] + second * gaps[:, 1] + third * gaps[:, 2]
+    determinant = (product + 4 * curvature * cross) / 3
+    root = np.sqrt(np.maximum(trace**2 - 4 * determinant, 0.0))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        least: Reals = np.where(trace > 0, 2 * determinant / (trace + root), (trace - root) / 2)
+    return least
+
+
+def shear_margin(logs: Reals, constants: Constants) -> Reals:
+    """(n,) least (τᵢ − τⱼ)/(eᵢ − eⱼ) of states (n, 3), MPa: positive by Baker and Ericksen."""
+    slope, _ = invariant_slopes(logs, constants.higher)
+    pairs = [(logs[:, i], logs[:, j], 2 * slope) for i, j in ((0, 1), (1, 2), (0, 2))]
+    least: Reals = np.min([_divided(*pair, constants) for pair in pairs], axis=0)
+    return least
+
+
+def _range_of(mode: Mode, constants: Constants) -> StableRange:
     def stable(logs: Reals) -> Reals:
-        return _margin(np.outer(logs, mode.exponents), mu, alpha)
+        states = np.outer(logs, mode.exponents)
+        return np.minimum(drucker_margin(states, constants), shear_margin(states, constants))
 
     def rising(logs: Reals) -> Reals:
-        return _load_slope(mode, logs, mu, alpha)
+        return _load_slope(mode, logs, constants)
 
     return StableRange(
         mode.name,
@@ -96,35 +147,32 @@ def _range_of(mode: Mode, mu: Reals, alpha: Reals) -> StableRange:
     )
 
 
-def _margin(logs: Reals, mu: Reals, alpha: Reals) -> Reals:
-    """(n,) positive where the states (n, 3) are stable: the smallest of all that must be so."""
-    first, second, third = np.moveaxis(_stiffnesses(logs, mu, alpha), -1, 0)
-    total = first + second + third
-    product = first * second + second * third + third * first
-    shears = [_divided(logs[:, i], logs[:, j], mu, alpha) for i, j in ((0, 1), (1, 2), (0, 2))]
-    result: Reals = np.min([total, product, *shears], axis=0)
-    return result
+def _stiffnesses(logs: Reals, constants: Constants) -> Reals:
+    """kᵢ = Σ 2 μ exp(α eᵢ) at states (n, 3), MPa; Yeoh's terms count as μ = 2 W′, α = 2."""
+    slope, _ = invariant_slopes(logs, constants.higher)
+    own = 2 * np.exp(logs[..., None] * constants.alpha) @ constants.mu
+    return own + 4 * slope[:, None] * np.exp(2 * logs)
 
 
-def _stiffnesses(logs: Reals, mu: Reals, alpha: Reals) -> Reals:
-    """kᵢ = Σ 2 μ exp(α eᵢ), MPa, of the shape of ``logs``."""
-    return 2 * np.exp(logs[..., None] * alpha) @ mu
-
-
-def _divided(first: Reals, second: Reals, mu: Reals, alpha: Reals) -> Reals:
-    """(τᵢ − τⱼ)/(eᵢ − eⱼ) = Σ 2 μ exp(α ē) sinhc(α Δ/2), MPa."""
-    mean = np.outer((first + second) / 2, alpha)
-    half = np.outer((first - second) / 2, alpha)
+def _divided(first: Reals, second: Reals, modulus: Reals, constants: Constants) -> Reals:
+    """(τᵢ − τⱼ)/(eᵢ − eⱼ) = Σ 2 μ exp(α ē) sinhc(α Δ/2), MPa; ``modulus`` = 2 W′."""
+    exponents = np.append(constants.alpha, 2.0)
+    mean = np.outer((first + second) / 2, exponents)
+    half = np.outer((first - second) / 2, exponents)
     safe = np.where(half == 0, 1.0, half)
-    return 2 * (np.exp(mean) * np.where(half == 0, 1.0, np.sinh(safe) / safe)) @ mu
+    units = 2 * (np.exp(mean) * np.where(half == 0, 1.0, np.sinh(safe) / safe))
+    return units[:, :-1] @ constants.mu + units[:, -1] * modulus
 
 
-def _load_slope(mode: Mode, logs: Reals, mu: Reals, alpha: Reals) -> Reals:
+def _load_slope(mode: Mode, logs: Reals, constants: Constants) -> Reals:
     """λ² dP/dλ of the nominal stress P = τ/λ, MPa: dτ/d ln λ − τ."""
-    stiffness = _stiffnesses(np.outer(logs, mode.exponents), mu, alpha)
-    slope = stiffness[:, 0] * mode.exponents[0] - stiffness[:, 2] * mode.exponents[2]
-    ends = mode.exponents[0] * logs, mode.exponents[2] * logs
-    return slope - mode.gap * logs * _divided(*ends, mu, alpha)
+    states, exponents = np.outer(logs, mode.exponents), np.array(mode.exponents)
+    stiffness, squares = _stiffnesses(states, constants), np.exp(2 * states)
+    first, second = invariant_slopes(states, constants.higher)
+    slope = stiffness[:, 0] * exponents[0] - stiffness[:, 2] * exponents[2]
+    slope += 4 * second * (squares[:, 0] - squares[:, 2]) * (squares @ exponents)
+    ends = states[:, 0], states[:, 2]
+    return slope - mode.gap * logs * _divided(*ends, 2 * first, constants)
 
 
 def _first_failure(positive: Callable[[Reals], Reals], end: float) -> float:

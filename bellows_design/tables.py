@@ -42,6 +42,7 @@ def evaluation_table(evaluation: Mapping[str, Any]) -> Sequence[RenderableType]:
         "highest von Mises stress": _value(stress, " MPa") + _error(error, "max_von_mises"),
         "at (x, y, z)": _place(evaluation["max_von_mises_position_mm"]),
         "cavity volume": _value(evaluation["cavity_volume_mm3"], " mm³"),
+        "principal strains": _strains(evaluation["strain"]),
         "contact": _contact(evaluation["contact"]),
         "model": f"{evaluation['model']} ({evaluation['model_reason']}), "
         f"{mesh['elements']} tetrahedra, {mesh['unknowns']} unknowns",
@@ -53,7 +54,17 @@ def evaluation_table(evaluation: Mapping[str, Any]) -> Sequence[RenderableType]:
     for name, value in rows.items():
         table.add_row(name, Text(value))
     curve = [_curve(evaluation["curve"])] if len(evaluation.get("curve", ())) > 1 else []
-    return [table, *curve, *([] if evaluation["converged"] else [_not_reached(evaluation)])]
+    notes = [Text(f"warning: {text}", style="yellow") for text in evaluation["warnings"]]
+    return [table, *curve, *notes, *([] if evaluation["converged"] else [_not_reached(evaluation)])]
+
+
+def _strains(strain: Mapping[str, Any]) -> str:
+    """The extremes, and the range of the material's tests."""
+    text = f"{100 * strain['lowest']:+.3g} … {100 * strain['highest']:+.3g} %"
+    if strain["valid"] is None:
+        return text
+    low, high = strain["valid"]
+    return f"{text} (material tested {100 * low:+.3g} … {100 * high:+.3g} %)"
 
 
 def _curve(readings: Sequence[Mapping[str, float]]) -> Table:

@@ -18,10 +18,13 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
+from bellows_design.interruption import interruption_in, raising_signals
+from bellows_design.leaving import told
+
 if TYPE_CHECKING:
     from rich.console import RenderableType
 
-DONE, REFUSED, BAD_INPUT, NOT_SOLVED, INTERNAL, INTERRUPTED = 0, 1, 2, 3, 4, 130
+DONE, REFUSED, BAD_INPUT, NOT_SOLVED, INTERNAL = 0, 1, 2, 3, 4
 TRACEBACK = "BELLOWS_TRACEBACK"
 """Environment variable: when set, errors show where they come from."""
 
@@ -44,12 +47,12 @@ class Answer:
 def answer(work: Callable[[], Answer], as_json: bool) -> None:
     """Do ``work`` and print its answer, or one sentence on why there is none; then exit."""
     try:
-        with stdout_is_stderr(), rare_garbage_collection():
+        with raising_signals() as signals, stdout_is_stderr(), rare_garbage_collection():
             result = work()
     except BaseException as error:
         if os.environ.get(TRACEBACK) or isinstance(error, SystemExit | GeneratorExit):
             raise
-        sentence, status = explained(error)
+        sentence, status = told(signals.received[0]) if signals.received else explained(error)
         typer.echo(f"bellows: {sentence}", err=True)
         if as_json:
             _print_json({"error": sentence, "exit_status": status})
@@ -68,8 +71,9 @@ def explained(error: BaseException) -> tuple[str, int]:
     missing = missing_library(error)
     if missing is not None:
         return missing, INTERNAL
-    if _interrupted(error):
-        return "interrupted; nothing half-done was left behind.", INTERRUPTED
+    interruption = interruption_in(error)
+    if interruption is not None:
+        return told(interruption)
     if type(error).__name__ == "MeshingError":  # its module imports NumPy
         return str(error), NOT_SOLVED
     if isinstance(error, ValueError) and _raised_by_us(error.__traceback__):
@@ -118,13 +122,6 @@ def _flush_c_streams() -> None:
     import ctypes
 
     ctypes.CDLL(None).fflush(None)
-
-
-def _interrupted(error: BaseException | None) -> bool:
-    """True for Ctrl-C, also where a C extension turned it into an ImportError of its own."""
-    while error is not None and not isinstance(error, KeyboardInterrupt):
-        error = error.__cause__ or error.__context__
-    return error is not None
 
 
 def _raised_by_us(traceback: TracebackType | None) -> bool:

@@ -14,7 +14,14 @@ from importlib.resources.abc import Traversable
 from pathlib import Path
 from typing import Annotated, Any, Self
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic import (
+    AfterValidator,
+    BaseModel,
+    ConfigDict,
+    Field,
+    ValidationError,
+    model_validator,
+)
 
 ENTRY_POINT_GROUP = "bellows_design.printers"
 
@@ -26,6 +33,18 @@ MOST_DOTS = 100
 
 _LONGEST_QUOTE = 200
 
+LONGEST_TEXT = 2000
+"""Characters."""
+
+
+def _printable(text: str) -> str:
+    """``text``, which goes to terminals and into manifests: no control characters, one line."""
+    if not text.isprintable():
+        raise ValueError(f"{_quoted(text)} must be printable text on one line")
+    return text
+
+
+Text = Annotated[str, Field(max_length=LONGEST_TEXT), AfterValidator(_printable)]
 Percent = Annotated[float, Field(ge=0, le=100)]
 Celsius = Annotated[float, Field(ge=0, le=500)]
 Side = Annotated[float, Field(ge=20, le=2000)]
@@ -63,8 +82,8 @@ class SlicerAdvice(_Record):
     perimeters: int = Field(ge=1, le=20)
     retraction: bool
     supports: bool
-    seam: str
-    sources: tuple[str, ...] = Field(min_length=1)
+    seam: Text
+    sources: tuple[Text, ...] = Field(min_length=1)
 
 
 class PrinterProfile(_Record):
@@ -79,8 +98,8 @@ class PrinterProfile(_Record):
     Raises ValueError with one sentence for an unknown key, NaN or a value out of bounds.
     """
 
-    name: str = Field(min_length=1)
-    description: str
+    name: Text = Field(min_length=1)
+    description: Text
     nozzle_diameter: float = Field(ge=0.1, le=2)
     line_width: float = Field(ge=0.08, le=3)
     layer_height: float = Field(ge=0.02, le=1.5)
@@ -200,7 +219,7 @@ def _parsed(source: Traversable | Path) -> dict[str, Any]:
             raise ValueError("it is no file")
         if source.stat().st_size > LARGEST_FILE:
             raise ValueError("it is larger than 1 MB")
-    text = source.read_text(encoding="utf-8")
+    text = source.read_text(encoding="utf-8-sig")  # some editors put a mark first
     if any(line.count(".") > MOST_DOTS for line in text.split("\n")):
         raise ValueError(f"it has a line with more than {MOST_DOTS} dots")
     return tomllib.loads(text)

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -11,11 +10,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from solver.arrays import Reals
 from solver.curving import SMALLEST_RATIO, jacobian_ratios, relaxed
 from solver.elements import TETRAHEDRON_EDGES
 from solver.mesh import Mesh
+from solver.meshing_messages import Message
+from solver.meshing_process import DEFAULT_SECONDS, MesherCrash, MesherTimeout, ask
 
-HXT, FRONTAL_DELAUNAY, TETRAHEDRON_10 = 10, 6, 11  # Gmsh's numbers
 FACES_OF_A_TETRAHEDRON = ((1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1))  # each seen from outside
 
 
@@ -63,107 +64,80 @@ class MeshOptions:
             )
 
 
-def mesh_solid(brep: Path, face_names: Sequence[str], options: MeshOptions | None = None) -> Mesh:
-    """Mesh the single solid in the BREP file ``brep``.
+def mesh_solid(
+    brep: Path | bytes,
+    face_names: Sequence[str],
+    options: MeshOptions | None = None,
+    seconds: float = DEFAULT_SECONDS,
+) -> Mesh:
+    """Mesh the single solid in the BREP file ``brep``, or in the content of one.
 
     ``face_names`` names its faces in the file's own order; faces that share a name make one
-    surface of the mesh.
+    surface of the mesh. Gmsh runs in a process of its own, for at most ``seconds``.
 
     Raises:
-        MeshingError: no mesh, or one whose worst element is all but flat.
-        ValueError: the number of names is not the number of faces.
+        MeshingError: no mesh, none in time, or one whose worst element is all but flat.
+        ValueError: the number of names is not the number of faces, or ``seconds`` is not above 0.
+        OSError: ``brep`` cannot be read, or Gmsh cannot be loaded.
     """
-    with _gmsh_session() as gmsh:
-        faces = _imported_faces(gmsh, brep)
-        if len(faces) != len(face_names):
-            raise ValueError(f"mesh: {len(face_names)} names for {len(faces)} faces of the solid.")
-        _generate(gmsh, options or MeshOptions())
-        tags, tets = _tetrahedra(gmsh)
-        nodes = _coordinates(gmsh, tags)
-        corners = [np.searchsorted(tags, _triangle_corners(gmsh, face)) for face in faces]
-    nodes = relaxed(nodes, tets)
+    if not 0 < seconds < np.inf:
+        raise ValueError(f"mesh: seconds = {seconds:g} must be finite and above 0.")
+    content = brep if isinstance(brep, bytes) else brep.read_bytes()
+    arrays = _from_gmsh(content, len(face_names), options or MeshOptions(), seconds)
+    tets = arrays["tets"]
+    nodes = relaxed(arrays["nodes"], tets)
     _check_quality(nodes, tets)
+    corners = np.split(arrays["corners"], np.cumsum(arrays["counts"])[:-1])
     return Mesh(nodes, tets, _named_surfaces(tets, corners, face_names))
 
 
-@contextmanager
-def _gmsh_session() -> Iterator[Any]:
-    import gmsh
-
-    gmsh.initialize(readConfigFiles=False, interruptible=False)
+def _from_gmsh(
+    brep: bytes, faces: int, options: MeshOptions, seconds: float
+) -> Mapping[str, NDArray[Any]]:
+    """What ``meshing_gmsh.meshed`` returns, from the other process."""
+    job = Message(
+        {"faces": faces, "settings": _settings(options)},
+        {"brep": np.frombuffer(brep, np.uint8), "field": _field_table(options.field)},
+    )
     try:
-        gmsh.option.setNumber("General.Terminal", 0)
-        yield gmsh
-    finally:
-        gmsh.finalize()
+        answer = ask(job, seconds)
+    except MesherTimeout:
+        raise MeshingError(
+            f"Gmsh did not mesh the solid within {seconds:g} s and was stopped; allow it more "
+            "time, or change the design's thinnest walls and smallest fillets"
+        ) from None
+    except MesherCrash as crash:
+        raise MeshingError(f"Gmsh crashed on this solid ({crash}); try other numbers") from None
+    return _accepted(answer, faces)
 
 
-def _imported_faces(gmsh: Any, brep: Path) -> list[int]:
-    gmsh.model.occ.importShapes(str(brep))
-    gmsh.model.occ.synchronize()
-    solids = gmsh.model.getEntities(3)
-    if len(solids) != 1:
-        raise MeshingError(f"the CAD file holds {len(solids)} solids instead of one")
-    return [tag for _, tag in gmsh.model.getEntities(2)]
+def _accepted(answer: Message, faces: int) -> Mapping[str, NDArray[Any]]:
+    """The arrays of an answer that is a mesh."""
+    if "failed" in answer.values:
+        raise OSError(answer.values["failed"])
+    if "faces" in answer.values:
+        raise ValueError(f"mesh: {faces} names for {answer.values['faces']} faces of the solid.")
+    if "refused" in answer.values:
+        raise MeshingError(answer.values["refused"])
+    return answer.arrays
 
 
-def _generate(gmsh: Any, options: MeshOptions) -> None:
-    settings = {
+def _settings(options: MeshOptions) -> dict[str, float]:
+    """Gmsh's options by name."""
+    return {
         "Mesh.MeshSizeMax": options.size,
         "Mesh.MeshSizeMin": options.smallest_size,
         "Mesh.MeshSizeFromCurvature": options.elements_per_circle,
-        "Mesh.Algorithm": FRONTAL_DELAUNAY,
-        "Mesh.Algorithm3D": HXT,
-        "General.NumThreads": 1,  # reproducible node numbers
     }
-    for name, value in settings.items():
-        gmsh.option.setNumber(name, value)
-    if options.field is not None:
-        _use_field(gmsh, options.field)
-    try:
-        gmsh.model.mesh.generate(3)
-        gmsh.model.mesh.setOrder(2)
-    except Exception as error:  # Gmsh raises bare Exception
-        raise MeshingError(f"Gmsh could not mesh the solid: {error}") from error
 
 
-def _use_field(gmsh: Any, field: SizeField) -> None:
-    """Make Gmsh interpolate ``field`` linearly in its mesh's tetrahedra."""
+def _field_table(field: SizeField | None) -> Reals:
+    """Corners and wanted sizes of the field's tetrahedra (t, 16); see ``meshing_gmsh.meshed``."""
+    if field is None:
+        return np.empty((0, 16))
     corners = field.mesh.tets[:, :4]
     points = field.mesh.nodes[corners]
-    table = np.hstack([*np.moveaxis(points, 2, 0), SIZE_OF_EDGE * field.sizes[corners]])
-    view = gmsh.view.add("sizes")
-    gmsh.view.addListData(view, "SS", len(table), table.ravel())
-    number = gmsh.model.mesh.field.add("PostView")
-    gmsh.model.mesh.field.setNumber(number, "ViewTag", view)
-    gmsh.model.mesh.field.setAsBackgroundMesh(number)
-    gmsh.option.setNumber("Mesh.MeshSizeExtendFromBoundary", 0)
-
-
-def _tetrahedra(gmsh: Any) -> tuple[NDArray[np.int64], NDArray[np.int32]]:
-    """Sorted Gmsh tags of the nodes in use, (n,), and tetrahedra as positions in them, (e, 10)."""
-    _, connectivity = gmsh.model.mesh.getElementsByType(TETRAHEDRON_10)
-    if len(connectivity) == 0:
-        raise MeshingError("Gmsh made no tetrahedra of the solid")
-    tags, positions = np.unique(connectivity.astype(np.int64), return_inverse=True)
-    return tags, positions.astype(np.int32).reshape(-1, 10)
-
-
-def _coordinates(gmsh: Any, tags: NDArray[np.int64]) -> NDArray[np.float64]:
-    """Coordinates (n, 3) of the nodes with the sorted ``tags``."""
-    known, coordinates, _ = gmsh.model.mesh.getNodes()
-    order = np.argsort(known)
-    places = order[np.searchsorted(known, tags, sorter=order)]
-    points: NDArray[np.float64] = coordinates.reshape(-1, 3)[places]
-    return points
-
-
-def _triangle_corners(gmsh: Any, face: int) -> NDArray[np.int64]:
-    """Node tags (k, 3) of the corners of the six-node triangles on a face."""
-    _, _, tags = gmsh.model.mesh.getElements(2, face)
-    table = np.asarray(tags[0] if tags else (), dtype=np.int64).reshape(-1, 6)
-    corners: NDArray[np.int64] = table[:, :3]
-    return corners
+    return np.hstack([*np.moveaxis(points, 2, 0), SIZE_OF_EDGE * field.sizes[corners]])
 
 
 def _named_surfaces(

@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 from fakes import fake_report
 
+from bellows_design.budget import DEFAULT, Budget
 from bellows_design.design import Design
 from bellows_design.formats import Part
 from bellows_design.progress import Progress, Silence
@@ -44,6 +45,7 @@ def stub_stages(monkeypatch: pytest.MonkeyPatch, cube_part: Part) -> Callable[..
             accuracy: float | None = None,
             pressures: Sequence[float] = (),
             progress: Progress = SILENCE,
+            budget: Budget = DEFAULT,
         ) -> Any:
             progress.stage("solve")
             if isinstance(evaluation, BaseException):

@@ -14,6 +14,17 @@ class FakeEstimate:
 
 
 @dataclass(frozen=True)
+class FakeStrain:
+    lowest: float = -0.2
+    highest: float = 0.3
+    elongation_at_break: float | None = 6.6
+
+    @property
+    def breaks(self) -> bool:
+        return self.elongation_at_break is not None and self.highest > self.elongation_at_break
+
+
+@dataclass(frozen=True)
 class FakeEvaluation:
     """An evaluation with made-up numbers."""
 
@@ -25,6 +36,8 @@ class FakeEvaluation:
     max_von_mises_mpa: float = 3.0
     error_estimate: FakeEstimate = field(default_factory=FakeEstimate)
     curve: tuple[dict[str, float], ...] = ()
+    strain: FakeStrain = field(default_factory=FakeStrain)
+    warnings: tuple[str, ...] = ()
 
     def to_dict(self) -> dict[str, Any]:
         return {
@@ -38,6 +51,8 @@ class FakeEvaluation:
             "max_von_mises_mpa": self.max_von_mises_mpa,
             "max_von_mises_position_mm": [1.0, 2.0, 3.0],
             "cavity_volume_mm3": 1000.0,
+            "strain": {"lowest": -0.2, "highest": self.strain.highest, "valid": None},
+            "warnings": list(self.warnings),
             "contact": {"detected": False, "min_gap_mm": 0.5},
             "error_estimate": {
                 "bending_angle_percent": 1.0,

@@ -8,7 +8,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from bellows_design.analysis import finer_mesh, first_mesh
+from bellows_design.analysis import finer_mesh, finer_plan, first_mesh, first_plan
 from bellows_design.design import Design, load_design
 from bellows_design.models import FULL, HALF, UNIT_CELL, Model
 from bellows_design.paper import TABLE_4, Result
@@ -85,6 +85,18 @@ def test_the_next_mesh_is_finer_and_nearer_to_the_solid(model: Model) -> None:
     errors = [abs(volume(mesh, *mesh.surfaces) / exact - 1) for mesh in (coarse, fine)]
     assert errors[0] < 0.02 and errors[1] < 1e-3
     assert errors[1] < errors[0] / 5
+
+
+@BOTH
+def test_the_sizes_of_both_meshes_are_known_before(model: Model) -> None:
+    coarse, fine = meshes(model)
+    solution = solve(model.problem(DESIGN, coarse), 0.01, SolverOptions(tolerance=1e-3))
+    plans = (
+        first_plan(solid_of(model), DESIGN),
+        finer_plan(solid_of(model), DESIGN, solution, model.refinement),
+    )
+    for plan, mesh in zip(plans, (coarse, fine), strict=True):
+        assert 1 / 1.3 < plan.elements / len(mesh.tets) < 1.3
 
 
 @BOTH

@@ -6,7 +6,7 @@ import math
 from dataclasses import replace
 
 import pytest
-from fakes import FakeEstimate, FakeEvaluation, fake_report
+from fakes import FakeEstimate, FakeEvaluation, FakeStrain, fake_report
 
 from bellows_design.approval import REQUIRED_RULES, decide
 from bellows_design.design import load_design
@@ -87,6 +87,19 @@ def test_a_load_that_was_not_reached_refuses(found: FakeEvaluation) -> None:
     assert [reason.kind for reason in verdict.reasons] == ["convergence"]
     assert "of 0.1 MPa" in verdict.reasons[0].message
     assert found.message in verdict.reasons[0].message
+
+
+def test_strain_beyond_the_elongation_at_break_refuses() -> None:
+    verdict = decide(DESIGN, fake_report(), replace(GOOD, strain=FakeStrain(highest=6.7)))
+    assert [reason.kind for reason in verdict.reasons] == ["strain"] and not verdict.undecided
+    assert verdict.reasons[0].message == "The material is strained to 670 % but breaks at 660 %."
+    unknown = replace(GOOD, strain=FakeStrain(highest=6.7, elongation_at_break=None))
+    assert decide(DESIGN, fake_report(), unknown).approved
+
+
+def test_a_warning_is_told_and_refuses_nothing() -> None:
+    verdict = decide(DESIGN, fake_report(), replace(GOOD, warnings=("beyond the tests.",)))
+    assert verdict.approved and verdict.to_dict()["warnings"] == ["beyond the tests."]
 
 
 def test_all_reasons_are_named_together() -> None:

@@ -269,7 +269,7 @@ def quick_study(monkeypatch: pytest.MonkeyPatch) -> list[tuple[Any, ...]]:
     """Puts a made-up study in the place of the real one; the list tells what it was asked."""
     asked: list[tuple[Any, ...]] = []
 
-    def study(design: Any, models: Any, meshes: Any, progress: Any) -> Study:
+    def study(design: Any, models: Any, meshes: Any, progress: Any, budget: Any) -> Study:
         asked.append((design, list(models), meshes))
         return made_study()
 
@@ -294,7 +294,7 @@ def test_the_command_prints_tables_or_one_object(
 
 def test_a_load_not_reached_has_status_3(bellows: Bellows, monkeypatch: pytest.MonkeyPatch) -> None:
     stopped = made_study(replace(series(*LEVELS), converged=False, note="it buckled."))
-    monkeypatch.setattr(benchmark, "study", lambda *_: stopped)
+    monkeypatch.setattr(benchmark, "study", lambda *_, **__: stopped)
     status, out, _ = bellows("benchmark")
     assert status == 3 and "it buckled." in out
 

@@ -17,6 +17,7 @@ from fakes import FakeEstimate, FakeEvaluation, fake_report
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from bellows_design.budget import Budget
 from bellows_design.design import Design, load_design, shipped_designs
 from bellows_design.system_libraries import INSTALL, PACKAGES, missing_library
 from bellows_design.terminal import explained, stdout_is_stderr
@@ -242,7 +243,7 @@ def test_a_range_of_pressures_gives_a_curve_up_to_its_end(
         for pressure in (0.02, 0.04, 0.05)
     )
 
-    def evaluate(design: Design, *arguments: object) -> FakeEvaluation:
+    def evaluate(design: Design, *arguments: object, budget: Budget) -> FakeEvaluation:
         asked.append((design.load.pressure, *arguments[:-1]))
         return FakeEvaluation(curve=readings)
 
@@ -261,7 +262,7 @@ def test_without_a_pressure_the_designs_own_is_taken_and_the_model_chosen(
 ) -> None:
     asked: list[tuple[object, ...]] = []
 
-    def evaluate(design: Design, *arguments: object) -> FakeEvaluation:
+    def evaluate(design: Design, *arguments: object, budget: Budget) -> FakeEvaluation:
         asked.append((design.load.pressure, *arguments[:-1]))
         return FakeEvaluation()
 

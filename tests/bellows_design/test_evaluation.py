@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 
 import meshio
 import numpy as np
@@ -10,11 +11,13 @@ import pytest
 
 from bellows_design import DesignError, load_design, with_overrides
 from bellows_design.analysis import first_mesh
+from bellows_design.budget import Budget
 from bellows_design.design import Design
 from bellows_design.evaluation import Evaluation, evaluate, refined, write_vtu
-from bellows_design.models import HALF, UNIT_CELL
+from bellows_design.models import UNIT_CELL
 from bellows_design.paper import TABLE_4
 from solver import solve
+from solver.meshing_estimate import expected_memory
 
 TWO_BUBBLES = ("length=18", "offset=3", "number_of_bubbles=2")
 
@@ -107,6 +110,8 @@ def test_json_contract_is_kept(evaluation: Evaluation) -> None:
         "max_von_mises_mpa",
         "max_von_mises_position_mm",
         "cavity_volume_mm3",
+        "strain",
+        "warnings",
         "contact",
         "error_estimate",
         "mesh",
@@ -131,6 +136,19 @@ def test_json_contract_is_kept(evaluation: Evaluation) -> None:
     assert content["mesh"]["elements"] == len(evaluation.finest.problem.mesh.tets)
 
 
+def test_strains_are_those_of_the_finest_mesh_and_warn_outside_of_the_tests(
+    evaluation: Evaluation,
+) -> None:
+    strain = evaluation.strain
+    assert -0.5 < strain.lowest < -0.05 and 0.05 < strain.highest < 1.0
+    assert strain.within is None and strain.instability is None and evaluation.warnings == ()
+    material = evaluation.design.material.model_copy(update={"valid_strain": (-0.02, 0.02)})
+    design = evaluation.design.model_copy(update={"material": material})
+    narrow = replace(evaluation, design=design)
+    assert narrow.strain.within is False
+    assert narrow.to_dict()["warnings"] == list(narrow.warnings) != []
+
+
 def test_vtu_holds_the_finest_solution(evaluation: Evaluation, tmp_path) -> None:
     target = tmp_path / "bent.vtu"
     write_vtu(evaluation, target)
@@ -140,15 +158,16 @@ def test_vtu_holds_the_finest_solution(evaluation: Evaluation, tmp_path) -> None
     assert list(tmp_path.iterdir()) == [target]
 
 
-def test_accuracy_refines_until_the_estimate_keeps_it(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("bellows_design.evaluation.MOST_ELEMENTS", 6_500)
+def test_accuracy_refines_until_the_estimate_keeps_it_or_the_memory_is_used_up() -> None:
     slim = ("bubble_width=12", "bubble_height=10", "tendon_width=8", "load.pressure=0.01")
     single = short("number_of_bubbles=1", "length=11.5", *slim)
-    rough = evaluate(single, accuracy_percent=100)
-    fine = evaluate(single, accuracy_percent=0.01)  # below what is ever claimed
+    little = Budget(memory=0.82)
+    rough = evaluate(single, accuracy_percent=100, budget=little)
+    fine = evaluate(single, accuracy_percent=0.01, budget=little)  # below what is ever claimed
     assert len(rough.solutions) == 2 < len(fine.solutions)
-    assert fine.solutions[-2].problem.mesh.tets.shape[0] * HALF.growth <= 6_500
-    assert not fine.can_refine
+    assert expected_memory(len(fine.finest.problem.mesh.tets)) < 1.1 * little.memory * 2**30
+    assert not fine.can_refine and not fine.next_mesh.fits(little)
+    assert fine.next_mesh.elements > len(fine.finest.problem.mesh.tets)
 
 
 @pytest.mark.parametrize(

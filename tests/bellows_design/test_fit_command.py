@@ -75,8 +75,8 @@ def test_the_material_file_serves_a_design(data: Path, tmp_path: Path) -> None:
     answer = fit(data, "ogden2", output, 4.0)
     assert answer.content["material_file"] == str(output)
     text = output.read_text("utf-8")
-    assert text.startswith("# valid_strain = [-0.9375, 3]")
     table = tomllib.loads(text)
+    assert table["valid_strain"] == [-0.9375, 3.0] and "higher" not in table
     material = Material.model_validate(table)
     assert material.name == "my_tpu" and material.yield_strength == 4.0
     assert material.mu == pytest.approx(CONSTANTS[0], rel=1e-6)
@@ -131,7 +131,7 @@ def test_a_failed_write_leaves_the_old_file(
     monkeypatch.setattr(Path, "write_text", lambda *_: (_ for _ in ()).throw(OSError(28, "full")))
     material = Material(mu=(1.0,), alpha=(2.0,), yield_strength=1.0)
     with pytest.raises(OSError, match="full"):
-        write_material(material, (-0.5, 1.0), output)
+        write_material(material, output)
     assert output.read_bytes() == b"old" and len(list(tmp_path.glob("*.toml"))) == 1
 
 
@@ -156,3 +156,29 @@ def test_without_matplotlib_a_plot_is_refused_in_one_sentence(
     monkeypatch.setattr("bellows_design.plots.find_spec", lambda _: None)
     assert "pictures" in refusal(data, plot=tmp_path / "fit.png")
     assert fit_command.fit(data, "neo-hooke").status == 0
+
+
+def test_yeoh_becomes_a_material_if_it_is_stable_over_the_tests(tmp_path: Path) -> None:
+    """One that softens within the tests is refused; one that does only beyond them is not."""
+    for top, status in ((1.25, 0), (1.8, 1)):
+        line = np.linspace(0.9, top, 30)
+        stress = nominal_stress(MODES["uniaxial"], line, (0.8,), (2.0,), (-0.12, 0.002))
+        rows = "\n".join(f"{x},{p}" for x, p in zip(line, stress, strict=True))
+        path, output = tmp_path / "soft.csv", tmp_path / f"soft{status}.toml"
+        path.write_text("stretch,stress_mpa\n" + rows, "utf-8")
+        answer = fit(path, "yeoh", output, 1.0)
+        assert answer.status == status and output.exists() is (status == 0)
+        assert answer.content["higher_mpa"] == pytest.approx([-0.12, 0.002], rel=1e-6)
+    material = Material.model_validate(tomllib.loads((tmp_path / "soft0.toml").read_text("utf-8")))
+    assert material.model == "yeoh" and material.higher == pytest.approx((-0.12, 0.002))
+    assert material.valid_strain == (-0.1056, 0.25)
+
+
+def test_published_measurements_become_a_material_and_a_picture(tmp_path: Path) -> None:
+    treloar = Path(__file__).parent / "data/treloar_1944.csv"
+    output, picture = tmp_path / "treloar.toml", tmp_path / "treloar.png"
+    answer = fit(treloar, "ogden2", output, 6.3, picture)
+    assert answer.status == 0 and picture.stat().st_size > 10_000
+    assert picture.read_bytes().startswith(b"\x89PNG")
+    assert tomllib.loads(output.read_text("utf-8"))["valid_strain"] == [-0.9493, 6.61]
+    assert "stretch 1.01 … 7.61" in printed(answer)

@@ -14,8 +14,9 @@ from hypothesis import strategies as st
 from bellows_design.errors import DesignError
 from bellows_design.fitting import MODELS, fit, fit_model
 from bellows_design.homogeneous import MODES, nominal_stress
-from bellows_design.measurements import Measurements, parse_measurements
+from bellows_design.measurements import Measurements, load_measurements, parse_measurements
 
+MEASURED = Path(__file__).parent / "data/treloar_1944.csv"
 POINTS = Path(__file__).parents[1] / "solver/data/ogden_points.json"
 NINJAFLEX = (3.2778, 0.19825), (-0.0054, 3.05)
 TRELOAR = (0.4095, 0.01, 0.003), (1.3, -2.0, 5.0)
@@ -215,7 +216,7 @@ def test_a_hundred_thousand_points_take_seconds() -> None:
 
 @pytest.mark.parametrize(
     ("model", "words"),
-    [("ogden4", "did you mean ogden"), ("yeoh", "not of Ogden's form"), ("", "unknown model")],
+    [("ogden4", "did you mean ogden"), ("yoeh", "did you mean yeoh"), ("", "unknown model")],
 )
 def test_unknown_models_are_refused_in_one_sentence(model: str, words: str) -> None:
     with pytest.raises(DesignError, match=words):
@@ -230,3 +231,56 @@ def test_too_few_points_are_refused_in_one_sentence() -> None:
     rest = made(NINJAFLEX, ("uniaxial",), stretches=np.array([1.0, 1.0, 1.0, 1.0, 1.3]))
     with pytest.raises(DesignError, match="1 points away from stretch 1"):
         fit(rest)
+
+
+def test_treloars_measurements_need_three_terms_and_tell_all_their_constants() -> None:
+    """His numbers, not Ogden's curves: three tests, up to 661 % strain."""
+    data = load_measurements(MEASURED)
+    assert data.modes == ("uniaxial", "biaxial", "planar") and data.stress.size == 53
+    assert data.valid_strain == pytest.approx((4.44**-2 - 1, 6.61))
+    best = fit(data).fit
+    assert best.model == "ogden3" and best.determined and best.stable
+    assert best.relative_error < 0.05 and best.r_squared > 0.99
+    assert best.stability.shear_modulus == pytest.approx(0.4225, rel=0.12)  # Ogden's (1972)
+    for each in best.constants:
+        assert each.low < each.value < each.high
+
+
+def test_yeoh_follows_treloar_to_a_tenth() -> None:
+    found = fit(load_measurements(MEASURED), "yeoh").fit
+    assert found.relative_error < 0.11 and found.r_squared > 0.99 and found.determined
+    c20, c30 = found.higher
+    assert c20 < 0 < c30 and found.stable
+
+
+YEOH = ((0.8,), (2.0,), (-0.03, 0.002))
+
+
+def made_of_yeoh(noise: float = 0.0, seed: int = 0) -> Measurements:
+    line = np.linspace(0.6, 3.0, 40)
+    stress = np.concatenate([nominal_stress(mode, line, *YEOH) for mode in MODES.values()])
+    factors = 1 + noise * np.random.default_rng(seed).standard_normal(stress.size)
+    return Measurements("made", np.tile(line, 3), stress * factors, np.repeat([0, 1, 2], 40))
+
+
+def test_exact_curves_of_yeoh_give_their_constants_back() -> None:
+    found = fit_model(made_of_yeoh(), "yeoh")
+    assert found.mu == pytest.approx((0.8,), rel=1e-9) and found.alpha == (2.0,)
+    assert found.higher == pytest.approx(YEOH[2], rel=1e-9)
+    assert found.relative_error < 1e-10 and found.determined and not found.vanished
+
+
+def test_intervals_of_yeoh_hold_the_truth_about_as_often_as_they_say() -> None:
+    """Of 120 intervals at 95 % some 114 should; fewer than 104 has a chance of 1e-4."""
+    hits = 0
+    for seed in range(40):
+        found = fit_model(made_of_yeoh(0.02, seed), "yeoh")
+        for constant, truth in zip(found.constants, (0.4, -0.03, 0.002), strict=True):
+            hits += constant.low <= truth <= constant.high
+    assert hits >= 104
+
+
+def test_too_few_points_for_yeoh_are_refused() -> None:
+    few = made(NINJAFLEX, ("uniaxial",), stretches=np.array([1.0, 1.1, 1.2, 1.3, 1.4]))
+    with pytest.raises(DesignError, match="4 points away from stretch 1 but yeoh, with 3"):
+        fit(few, "yeoh")

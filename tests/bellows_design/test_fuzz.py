@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import random
 import sys
@@ -22,6 +23,7 @@ from bellows_design.approval import decide
 from bellows_design.design import Design, load_design, shipped_designs
 from bellows_design.errors import DesignError
 from bellows_design.export import export_approved, require_place, withdraw
+from bellows_design.fitting import Choice, fit
 from bellows_design.formats import Part
 from bellows_design.measurements import load_measurements, parse_measurements
 from bellows_design.overrides import known_keys, with_overrides
@@ -34,10 +36,11 @@ FUZZ = settings(
     suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
 )
 SECONDS = 5.0
-"""For one input, on a busy machine; a hang takes minutes."""
+"""Of computing, for one input; a hang takes minutes."""
 
 LONGEST_SENTENCE = 1000
 DESIGNS = Path(__file__).parents[2] / "bellows_design" / "designs"
+MATERIALS = DESIGNS.parent / "materials"
 BASE = (DESIGNS / "prototype_2_indent.toml").read_bytes()
 CSV = b"mode,stretch,stress_mpa\n" + b"".join(
     b"uniaxial,%g,%g\n" % (1 + 0.1 * i, 0.2 * i) for i in range(1, 9)
@@ -79,9 +82,9 @@ BAD_VALUES = [
 @contextmanager
 def soon() -> Iterator[None]:
     """Fails if the block takes longer than any input should."""
-    start = time.monotonic()
+    start = time.process_time()
     yield
-    assert time.monotonic() - start < SECONDS
+    assert time.process_time() - start < SECONDS
 
 
 def refused_in_sentences(read: Callable[[], object]) -> bool:
@@ -196,7 +199,7 @@ def test_a_damaged_design_file_is_read_or_refused_in_sentences(tmp_path: Path, n
         pytest.param(b"x = '''" + b"'\n" * 400_000, id="a text without end"),
         pytest.param(b"k" * 900_000 + b" = 1\n" + BASE, id="a key of a million letters"),
         pytest.param(b"\n" * 999_999, id="empty lines"),
-        pytest.param(b"\xef\xbb\xbf" + BASE, id="byte order mark"),
+        pytest.param(b"\xef\xbb\xbf" * 2 + BASE, id="two byte order marks"),
         pytest.param(b"\0" * 1000, id="null bytes"),
         pytest.param(BASE + b"\0", id="a null byte"),
         pytest.param(BASE + BASE, id="everything twice"),
@@ -205,6 +208,15 @@ def test_a_damaged_design_file_is_read_or_refused_in_sentences(tmp_path: Path, n
 def test_a_design_file_made_to_harm_is_refused_soon(tmp_path: Path, content: bytes) -> None:
     path = saved(tmp_path, content)
     assert refused_in_sentences(lambda: load_design(path))
+
+
+def test_a_byte_order_mark_is_no_part_of_a_design_or_a_table(tmp_path: Path) -> None:
+    mark = b"\xef\xbb\xbf"
+    assert load_design(saved(tmp_path, mark + BASE)) == load_design("prototype_2_indent")
+    marked, plain = (
+        load_measurements(saved(tmp_path, content, "it.csv")) for content in (mark + CSV, CSV)
+    )
+    assert (marked.stretch == plain.stretch).all() and (marked.stress == plain.stress).all()
 
 
 def test_a_pipe_in_the_place_of_a_file_is_not_waited_for(tmp_path: Path) -> None:
@@ -272,6 +284,40 @@ def test_a_damaged_table_of_measurements_is_read_or_refused(tmp_path: Path) -> N
     for _ in range(300):
         path = saved(tmp_path, mutated(CSV, chance), "fuzzed.csv")
         refused_in_sentences(lambda path=path: load_measurements(path))  # type: ignore[misc]
+
+
+def test_a_damaged_material_is_taken_or_refused_in_sentences() -> None:
+    """Material files of the library as a table of a design, damaged."""
+    table = BASE.decode().replace('material = "ninjaflex"\n', "").encode() + b"\n[material]\n"
+    chance = random.Random("materials")
+    for path in sorted(MATERIALS.glob("*.toml")) * 12:
+        content = table + mutated(path.read_bytes(), chance)
+        refused_in_sentences(lambda text=content: Design.from_toml(text.decode("utf-8", "replace")))  # type: ignore[misc]
+
+
+def tables() -> st.SearchStrategy[str]:
+    """Tables that are nearly measurements: some can be fitted."""
+    stretches = st.floats(0.04, 21) | st.sampled_from([1.0, 1.1, 1.2, 2.0, 5e-324, 1 + 1e-15])
+    stresses = st.floats(-3, 1001) | st.sampled_from([0.0, -0.0, 1e-300, 0.1, 0.5, 1.0])
+    modes = st.sampled_from(["uniaxial", "biaxial", "planar"])
+    rows = st.lists(st.tuples(modes, stretches, stresses), min_size=4, max_size=12)
+    return rows.map(
+        lambda each: (
+            "mode,stretch,stress_mpa\n"
+            + "".join(f"{mode},{x:.17f},{y:.17f}\n" for mode, x, y in each)
+        )
+    )
+
+
+@settings(FUZZ, max_examples=30)
+@given(text=tables())
+def test_any_table_is_fitted_or_refused_in_sentences(text: str) -> None:
+    found: list[Choice] = []
+    if not refused_in_sentences(
+        lambda: found.append(fit(parse_measurements(text, "it"), "ogden1"))
+    ):
+        constants = (*found[0].fit.mu, *found[0].fit.alpha)
+        assert all(math.isfinite(constant) for constant in constants)
 
 
 @pytest.mark.parametrize(
@@ -403,6 +449,11 @@ HOSTILE = [
     ["run", "prototype_1", "--set", "name=/tmp/x"],
     ["run", "prototype_1", "--set", "printer=../x"],
     ["evaluate", "prototype_1", "--pressure", "1e999"],
+    ["evaluate", "prototype_1", "--memory", "nan"],
+    ["run", "prototype_1", "--memory", "-1"],
+    ["evaluate", "prototype_1", "--memory", "1e999"],
+    ["evaluate", "prototype_1", "--mesh-seconds", "0"],
+    ["benchmark", "prototype_1", "--mesh-seconds", "nan"],
     ["evaluate", "prototype_1", "--pressure", "0.01:0.1:1e-300"],
     ["fit", "."],
     ["fit", "x" * 5000],

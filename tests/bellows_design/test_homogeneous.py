@@ -14,6 +14,7 @@ from bellows_design.homogeneous import (
     MODES,
     PLANAR,
     UNIAXIAL,
+    first_invariant,
     nominal_stress,
     unit_slopes,
     unit_stresses,
@@ -93,3 +94,20 @@ def test_slopes_in_the_exponent_equal_differences() -> None:
 def test_no_stress_without_strain() -> None:
     for mode in MODES.values():
         assert nominal_stress(mode, np.array([1.0]), *TRELOAR)[0] == 0.0
+
+
+@pytest.mark.parametrize("stretch", ["0.2", "0.9999999", "1.000030517578125", "1.3", "4"])
+def test_yeohs_stress_equals_its_definition_in_fifty_digits(stretch: str) -> None:
+    """P = 2 (λ₁² − λ₃²)/λ Σ i Cᵢ₀ (I₁ − 3)^(i−1)."""
+    exact = Decimal(float(stretch))
+    constants = [Decimal(number) for number in (0.8 / 2, -0.03, 0.002)]
+    for mode in MODES.values():
+        squares = [exact ** (2 * Decimal(exponent)) for exponent in mode.exponents]
+        x = sum(squares) - 3
+        slope = sum((i + 1) * c * x**i for i, c in enumerate(constants))
+        expected = 2 * (squares[0] - squares[2]) / exact * slope
+        ours = nominal_stress(mode, np.array([float(stretch)]), (0.8,), (2.0,), (-0.03, 0.002))
+        assert ours[0] == pytest.approx(float(expected), rel=2e-13)
+        invariant = first_invariant(np.log(float(stretch)) * np.array(mode.exponents))
+        digits = 1e-12 if abs(float(stretch) - 1) > 0.01 else 3e-9  # the stretch's own rounding
+        assert invariant == pytest.approx(float(x), rel=digits)

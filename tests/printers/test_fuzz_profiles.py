@@ -25,7 +25,7 @@ FUZZ = settings(
     suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
 )
 SECONDS = 5.0
-"""For one profile, on a busy machine; a hang takes minutes."""
+"""Of computing, for one profile; a hang takes minutes."""
 
 LONGEST_LINE = 1000
 BASE = (Path(printers.__file__).parent / "profiles" / "prusa_i3.toml").read_bytes()
@@ -39,7 +39,7 @@ BAD_VALUES = [
 
 def refused_in_one_line(load: Callable[[], object]) -> bool:
     """True if ``load`` refused as documented; any error but ``ValueError`` goes through."""
-    start = time.monotonic()
+    start = time.process_time()
     try:
         load()
     except ValueError as error:
@@ -47,7 +47,7 @@ def refused_in_one_line(load: Callable[[], object]) -> bool:
         assert len(str(error).splitlines()) == 1
         return True
     finally:
-        assert time.monotonic() - start < SECONDS
+        assert time.process_time() - start < SECONDS
     return False
 
 
@@ -108,7 +108,7 @@ def test_a_profile_with_any_bit_flipped_loads_or_is_refused(tmp_path: Path) -> N
         pytest.param(b"k" * 900_000 + b" = 1\n" + BASE, id="a key of a million letters"),
         pytest.param(b'"a\\nb" = 1\n' + BASE, id="a key of two lines"),
         pytest.param(b"#" * (LARGEST_FILE + 1), id="too large"),
-        pytest.param(b"\xef\xbb\xbf" + BASE, id="byte order mark"),
+        pytest.param(b"\xef\xbb\xbf" * 2 + BASE, id="two byte order marks"),
         pytest.param(BASE + b"\0", id="a null byte"),
         pytest.param(BASE + BASE, id="everything twice"),
         pytest.param(b"", id="nothing"),
@@ -117,6 +117,10 @@ def test_a_profile_with_any_bit_flipped_loads_or_is_refused(tmp_path: Path) -> N
 def test_a_profile_made_to_harm_is_refused_soon(tmp_path: Path, content: bytes) -> None:
     path = saved(tmp_path, content)
     assert refused_in_one_line(lambda: load_profile(path))
+
+
+def test_a_byte_order_mark_is_no_part_of_a_profile(tmp_path: Path) -> None:
+    assert load_profile(saved(tmp_path, b"\xef\xbb\xbf" + BASE)) == load_profile("prusa_i3")
 
 
 def test_a_pipe_in_the_place_of_a_profile_is_not_waited_for(tmp_path: Path) -> None:

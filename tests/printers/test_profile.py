@@ -60,6 +60,11 @@ def test_the_advised_speed_stays_below_the_advised_flow(name: str) -> None:
         ({"slicer": {"glue": True}}, ["slicer", "unknown key 'glue'"]),
         ({"slicer": {"print_speed": 60.0}}, ["print_speed", "60", "1.5 mm³/s"]),
         ({"line_width": 1.0}, ["line_width", "1 mm", "2 times", "0.4 mm"]),
+        ({"name": "a\nb"}, ["name", r"a\nb", "printable text on one line"]),
+        ({"description": "\x1b[2J"}, ["description", r"\x1b[2J", "printable text on one line"]),
+        ({"slicer": {"seam": "rear\x07"}}, ["seam", "printable text on one line"]),
+        ({"slicer": {"sources": ["mine", "\u202e"]}}, ["sources.1", "printable text"]),
+        ({"description": "x" * 2001}, ["description", "2000 characters"]),
         ({"layer_height": 0.39}, ["layer_height", "0.39 mm", "0.8 times"]),
     ],
 )

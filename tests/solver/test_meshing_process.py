@@ -185,6 +185,17 @@ def test_why_gmsh_cannot_be_loaded_is_passed_on(
         meshed_ball()
 
 
+def test_modules_in_the_current_folder_are_not_run(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name in ("gmsh", "json", "solver"):
+        (tmp_path / f"{name}.py").write_text("raise OSError('not mine')")
+    new = meshing_process._Mesher()
+    monkeypatch.setattr(meshing_process, "_mesher", lambda _: new)
+    monkeypatch.chdir(tmp_path)
+    assert len(meshed_ball().tets) > 0
+
+
 def test_threads_take_turns() -> None:
     sizes = [1.6, 1.2, 1.6, 1.2]
     with ThreadPoolExecutor(4) as pool:

@@ -1,0 +1,17 @@
+"""Entry point of the command ``bellows``, and of ``python -m bellows_design``."""
+
+from __future__ import annotations
+
+from bellows_design.leaving import leave_at_signals
+
+
+def main() -> None:
+    """Run the command; its own imports, which take a while, may be interrupted already."""
+    leave_at_signals()
+    from bellows_design.cli import app
+
+    app()
+
+
+if __name__ == "__main__":
+    main()

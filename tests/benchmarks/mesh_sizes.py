@@ -1,0 +1,61 @@
+"""Expected against actual numbers of elements, and what they take in memory.
+
+    python tests/benchmarks/mesh_sizes.py [meshes of the cell [meshes of the half]]
+
+The first meshes of unit cell and half of the shipped designs and of extreme ones, and so many
+refined ones (one and none without).
+"""
+
+from __future__ import annotations
+
+import sys
+
+from bellows_design.benchmark import evaluations
+from bellows_design.budget import Budget
+from bellows_design.design import load_design, shipped_designs
+from bellows_design.evaluation import Evaluation
+from bellows_design.models import HALF, UNIT_CELL
+from bellows_design.overrides import with_overrides
+
+AMPLE = Budget(memory=100.0, mesh_seconds=3600.0)
+EXTREME = {
+    "thin walls": ("bubble_thickness=0.8", "tendon_thickness=0.8"),
+    "thin tendon": ("tendon_thickness=0.5",),
+    "small fillets": ("inner_fillet=0.2", "outer_fillet=0.2"),
+    "no fillets": ("inner_fillet=0", "outer_fillet=0"),
+    "wide": ("bubble_width=60", "tendon_width=40"),
+}
+GENTLE = "load.pressure=0.005"
+"""MPa. Any of them carries that; it is meshes that count."""
+
+
+def main(cells: int = 2, halves: int = 1) -> None:
+    """Print a table as it comes."""
+    print("| design | model | expected | tetrahedra | ratio | expected memory |\n|" + "---|" * 6)
+    designs = {name: load_design(name) for name in shipped_designs()}
+    for name, changes in EXTREME.items():
+        designs[name] = with_overrides(designs["prototype_1"], changes)
+    for name, design in designs.items():
+        gentle = with_overrides(design, [GENTLE])
+        for model, meshes in ((UNIT_CELL, cells), (HALF, halves)):
+            before: Evaluation | None = None
+            for evaluation in evaluations(gentle, model, "", meshes, budget=AMPLE):
+                _print_row(name, before, evaluation)
+                before = evaluation
+
+
+def _print_row(name: str, before: Evaluation | None, evaluation: Evaluation) -> None:
+    from bellows_design.analysis import first_plan
+
+    first = first_plan(evaluation.solid, evaluation.design)
+    plan = first if before is None else before.next_mesh
+    actual = len(evaluation.finest.problem.mesh.tets)
+    print(
+        f"| {name} | {evaluation.model.name} | {plan.elements:.0f} | {actual} "
+        f"| {plan.elements / actual:.2f} | {plan.memory:.2f} GiB |",
+        flush=True,
+    )
+
+
+if __name__ == "__main__":
+    main(*map(int, sys.argv[1:]))
