@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from solver.loading import solve
     from solver.materials import Ogden
     from solver.mesh import Mesh
-    from solver.models import Problem, SlenderAxis, Supports
+    from solver.models import Contact, Problem, SlenderAxis, Supports
     from solver.motion import rotation
     from solver.newton import Event, SolverOptions
     from solver.results import PathPoint, Solution, cavity_volume, write_vtu
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 _MODULES = {
     "materials": ("Ogden",),
     "mesh": ("Mesh",),
-    "models": ("Problem", "SlenderAxis", "Supports"),
+    "models": ("Contact", "Problem", "SlenderAxis", "Supports"),
     "motion": ("rotation",),
     "newton": ("Event", "SolverOptions"),
     "loading": ("solve",),
@@ -35,6 +35,7 @@ _MODULES = {
 }
 
 __all__ = [
+    "Contact",
     "Event",
     "Mesh",
     "Ogden",

@@ -84,7 +84,7 @@ def _walk(newton: Newton, stops: tuple[float, ...]) -> Walk:
     """Up from zero load, through ``stops``."""
     zero = State.zero(newton.problem)
     equilibrium = newton.assembly.evaluate(zero, 0.0)
-    newton.factorize(equilibrium.tangent)
+    newton.factorize(equilibrium)
     points: tuple[PathPoint, ...] = (newton.point(zero, 0.0, 0),)
     leg = Leg(Attempt(zero, 0, force=equilibrium.force), 0.0, newton.options.first_step)
     for stop in (*stops, 1.0):

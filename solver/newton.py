@@ -126,6 +126,7 @@ class Newton:
         self.assembly = Assembly(self.problem)
         self.matrix: LinearSolver = quick_solver(self.options.linear_solver)
         self.matrix.analyze(self.assembly.pattern)
+        self.analyzed = self.assembly.pattern
         self.move = motion_along(self.problem.mesh, self.problem.axis)
         self.trusted = trusted_nodes(self.problem)
         self.held = fixed_displacements(self.problem.mesh, self.problem.supports)
@@ -135,7 +136,8 @@ class Newton:
 
         A factorization serves as long as corrections shrink fast. The first correction after a
         predictor may be small by chance, with large ones to follow: a ``tolerance`` looser than
-        the options' counts only while corrections shrink.
+        the options' counts only while corrections shrink, and where walls touch none larger than
+        the contact's depth will do.
         """
         state, previous, size, reuse = guess, 0.0, self.problem.mesh.size, False
         for iteration in range(1, self.options.maximum_iterations + 1):
@@ -153,7 +155,8 @@ class Newton:
             self.effort.iterations += 1
             self.notify("iteration", load, state, iteration, correction)
             contracting = correction < previous
-            if correction <= (tolerance if contracting else self.options.tolerance) * size:
+            allowed = (tolerance if contracting else self.options.tolerance) * size
+            if correction <= min(allowed, self.assembly.touches.depth(state)):
                 return self.verified(state, load, iteration, guess)
             previous, reuse = correction, correction < self.options.reuse * previous
         return Attempt(guess, iteration, f"Newton did not converge in {iteration} iterations")
@@ -161,7 +164,7 @@ class Newton:
     def increment(self, equilibrium: Equilibrium, reuse: bool) -> State:
         """Newton's increment, by a new factorization or by the one at hand."""
         if not reuse:
-            self.factorize(equilibrium.tangent)
+            self.factorize(equilibrium)
         return self.solve(-equilibrium.residual)
 
     def verified(self, state: State, load: float, iterations: int, guess: State) -> Attempt:
@@ -188,11 +191,14 @@ class Newton:
         """Go on in double precision, if single precision was this solver's own choice."""
         if self.options.linear_solver == "auto" and self.matrix.name == "pardiso-single":
             self.matrix = linear_solver("pardiso")
-            self.matrix.analyze(self.assembly.pattern)
+            self.matrix.analyze(self.analyzed)
 
-    def factorize(self, tangent: Reals) -> None:
-        """Factorize a tangent and count it."""
-        self.matrix.factorize(tangent)
+    def factorize(self, equilibrium: Equilibrium) -> None:
+        """Factorize a tangent and count it; contact may have changed its pattern."""
+        if equilibrium.pattern is not self.analyzed:
+            self.matrix.analyze(equilibrium.pattern)
+            self.analyzed = equilibrium.pattern
+        self.matrix.factorize(equilibrium.tangent)
         self.effort.factorizations += 1
 
     def solve(self, right_hand_side: Reals) -> State:
