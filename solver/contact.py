@@ -21,7 +21,9 @@ Where nothing touches nothing is added, not even zeros.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import NamedTuple
 
@@ -35,6 +37,7 @@ from solver.kernels import mirror_upper, scatter, to_plane_unknowns
 from solver.mesh import Mesh
 from solver.models import Contact, Problem
 from solver.moving_plane import MovingPlane
+from solver.proximity import OPPOSING, facet_normals
 from solver.sparsity import Pattern, widened
 from solver.state import State
 
@@ -43,6 +46,9 @@ UNKNOWNS = 20
 
 SMOOTHING = 0.1
 """s over the penetration that a contact asks for."""
+
+SOFTENING = 30.0
+"""Times softer a contact is while a load is tried again that could not be reached otherwise."""
 
 INITIAL_CROSSING = 1e-6
 """How far a surface may lie beyond its plane at first, in body diagonals: rounding."""
@@ -183,10 +189,9 @@ def assemble_contact(
 class Touch:
     """One contact of a problem on its mesh."""
 
+    problem: Problem
     contact: Contact
     face: Face
-    side: float
-    end: float
 
     @staticmethod
     def of(problem: Problem, contact: Contact, numbering: Numbering) -> Touch:
@@ -202,15 +207,11 @@ class Touch:
             stiffness=problem.material.shear_modulus / contact.penetration,
             smoothing=SMOOTHING * contact.penetration,
         )
-        middle = 0.0 if contact.axis is None else mesh.nodes[:, contact.axis].mean()
-        side = 1.0 if middle >= contact.position else -1.0  # where the body is
-        return Touch(contact, face, side, _end(problem))
+        return Touch(problem, contact, face)
 
     def plane(self, state: State) -> Plane:
         """Where the plane is now."""
-        if self.contact.axis is not None:
-            return _fixed_plane(self.contact.axis, self.contact.position, self.side)
-        return _moving_plane(self.end, state.plane)
+        return _plane_of(self.problem, self.contact, state)
 
     def gaps(self, state: State) -> Reals:
         """Signed distances of the quadrature points from the plane, (k, q), mm."""
@@ -218,6 +219,13 @@ class Touch:
         along = (self.face.nodes + state.displacement) @ np.array(normal)
         gaps: Reals = along[self.face.triangles] @ self.face.shapes.T + constant
         return gaps
+
+    def softer(self, factor: float) -> Touch:
+        """The same contact with ``factor`` times its penetration."""
+        depth = factor * self.contact.penetration
+        stiffness, smoothing = self.face.stiffness / factor, SMOOTHING * depth
+        face = self.face._replace(stiffness=stiffness, smoothing=smoothing)
+        return Touch(self.problem, replace(self.contact, penetration=depth), face)
 
     def entries(self, pattern: Pattern | None) -> Integers:
         """Places of the triangles' entries in a pattern, (k, 210); none without one."""
@@ -244,6 +252,16 @@ class Touches:
         self._pattern = pattern
         self._touches = tuple(Touch.of(problem, each, numbering) for each in problem.contacts)
         _check_apart(problem, self._touches)
+
+    @contextmanager
+    def softened(self) -> Iterator[None]:
+        """Contacts softer by ``SOFTENING`` for a while: their way of settling is shorter."""
+        stiff = self._touches
+        self._touches = tuple(touch.softer(SOFTENING) for touch in stiff)
+        try:
+            yield
+        finally:
+            self._touches = stiff
 
     def energy(self, state: State) -> float:
         """Energy of all contacts, N mm."""
@@ -304,6 +322,25 @@ def lowest_gaps(problem: Problem, displacement: Reals, plane: Reals) -> tuple[fl
     return tuple(float(touch.gaps(state).min(initial=np.inf)) for touch in touches)
 
 
+def image_gaps(problem: Problem, displacement: Reals, plane: Reals) -> tuple[float | None, ...]:
+    """Narrowest air (mm) between each contact's surface and its mirror image; None if none faces it.
+
+    Arguments as for ``lowest_gaps``. Seen from flat facets, but where the surface touches its image
+    by how far the two run into each other, negative.
+    """
+    state = State(displacement, np.zeros(0), np.asarray(plane, float))
+    lowest = lowest_gaps(problem, displacement, plane)
+    gaps = []
+    for contact, least in zip(problem.contacts, lowest, strict=True):
+        *normal, constant = _plane_of(problem, contact, state).equation
+        centres, normals = facet_normals(problem.mesh, displacement, contact.surface)
+        cosine = normals @ np.array(normal)
+        facing = (cosine < 0) & (1 - 2 * cosine**2 <= OPPOSING)
+        across = centres[facing] @ np.array(normal) + constant
+        gaps.append(2 * (least if least < 0 else float(across.min(initial=np.inf))))
+    return tuple(gap if np.isfinite(gap) else None for gap in gaps)
+
+
 def _areas(mesh: Mesh, triangles: Integers) -> Reals:
     """Reference areas (k, q) of the quadrature points of triangles (k, 6), mm^2."""
     rule = triangle_rule()
@@ -323,10 +360,14 @@ def _dofs(
     return np.ascontiguousarray(np.hstack([numbering.of_triangles(triangles), plane]))
 
 
-def _fixed_plane(axis: int, position: float, side: float) -> Plane:
-    """A plane normal to an axis; the body is on the positive or negative ``side``."""
+def _plane_of(problem: Problem, contact: Contact, state: State) -> Plane:
+    """Where a contact's plane is now."""
+    if contact.axis is None:
+        return _moving_plane(_end(problem), state.plane)
+    middle = problem.mesh.nodes[:, contact.axis].mean()
+    side = 1.0 if middle >= contact.position else -1.0  # where the body is
     equation = np.zeros(4)
-    equation[axis], equation[3] = side, -side * position
+    equation[contact.axis], equation[3] = side, -side * contact.position
     return Plane(equation, np.zeros(4), np.zeros(4), 0.0, 0.0)
 
 
@@ -339,9 +380,8 @@ def _moving_plane(end: float, motion: Reals) -> Plane:
 
 
 def _end(problem: Problem) -> float:
-    """x of the moving plane at first, mm; 0 without one."""
-    if problem.moving_plane is None:
-        return 0.0
+    """x of the moving plane at first, mm."""
+    assert problem.moving_plane is not None
     return float(problem.mesh.nodes[problem.mesh.surface_nodes(problem.moving_plane)[0], 0])
 
 

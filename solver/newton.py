@@ -127,20 +127,32 @@ class Newton:
         self.matrix: LinearSolver = quick_solver(self.options.linear_solver)
         self.matrix.analyze(self.assembly.pattern)
         self.analyzed = self.assembly.pattern
+        self.touched = False
         self.move = motion_along(self.problem.mesh, self.problem.axis)
         self.trusted = trusted_nodes(self.problem)
         self.held = fixed_displacements(self.problem.mesh, self.problem.supports)
 
     def correct(self, guess: State, load: float, tolerance: float) -> Attempt:
+        """Equilibrium at a fixed load from ``guess``; where walls touch, at worst in two stages."""
+        attempt = self.iterate(guess, load, tolerance)
+        if not attempt.failure or not self.touched:
+            return attempt
+        with self.assembly.touches.softened():
+            soft = self.iterate(guess, load, tolerance)
+        return attempt if soft.failure else self.iterate(soft.state, load, tolerance)
+
+    def iterate(self, guess: State, load: float, tolerance: float) -> Attempt:
         """Newton iterations at a fixed load from ``guess``, until a correction is small.
 
         A factorization serves as long as corrections shrink fast. The first correction after a
         predictor may be small by chance, with large ones to follow: a ``tolerance`` looser than
         the options' counts only while corrections shrink, and where walls touch none larger than
-        the contact's depth will do.
+        the contact's depth will do. Which points touch may take as many iterations again to settle.
         """
         state, previous, size, reuse = guess, 0.0, self.problem.mesh.size, False
-        for iteration in range(1, self.options.maximum_iterations + 1):
+        self.touched, iteration = False, 0
+        while iteration < self.options.maximum_iterations * (2 if self.touched else 1):
+            iteration += 1
             equilibrium = self.assembly.evaluate(state, load * self.pressure, tangent=not reuse)
             if not equilibrium.admissible:
                 return Attempt(guess, iteration, "an element would turn inside out")
@@ -156,7 +168,9 @@ class Newton:
             self.notify("iteration", load, state, iteration, correction)
             contracting = correction < previous
             allowed = (tolerance if contracting else self.options.tolerance) * size
-            if correction <= min(allowed, self.assembly.touches.depth(state)):
+            depth = self.assembly.touches.depth(state)
+            self.touched |= bool(np.isfinite(depth))
+            if correction <= min(allowed, depth):
                 return self.verified(state, load, iteration, guess)
             previous, reuse = correction, correction < self.options.reuse * previous
         return Attempt(guess, iteration, f"Newton did not converge in {iteration} iterations")

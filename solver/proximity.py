@@ -66,6 +66,14 @@ def facing_gaps(
     return Gaps(signed, reference[rays], reference[met])
 
 
+def facet_normals(mesh: Mesh, displacement: Reals, *surfaces: str) -> tuple[Reals, Reals]:
+    """Centres and outward unit normals (k, 3) of the flat facets of deformed surfaces."""
+    corners = (mesh.nodes + displacement)[_flat_facets(mesh.triangles(*surfaces))]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    return corners.mean(axis=1), normals
+
+
 def _first_met(
     body: Any, origins: Reals, directions: Reals, only: Integers | None = None
 ) -> tuple[Integers, Integers, Reals]:
