@@ -23,9 +23,10 @@ if TYPE_CHECKING:
 
 NEIGHBOURS, INSIDE, ITSELF = "neighbouring bubbles", "inner walls", "distant parts"
 
-UNMODELLED = "walls pass through each other: this model knows no contact, nor does its result past it"
-PARTLY = "inner walls touch where the unit cell models no contact: its result does not hold past it"
+UNMODELLED = "this model lets walls through each other: its result does not hold past the touch"
+PARTLY = "inner walls meet where no contact is modelled: the result does not hold past the touch"
 FREE_ENDS = "as inner walls touch, each end is taken as half a bubble without a neighbour"
+
 
 @dataclass(frozen=True)
 class Contact:
@@ -53,7 +54,7 @@ def contact_of(bellows: BellowsParameters, mesh: Mesh, displacement: np.ndarray)
     outer, itself = _outer_gap(bellows, mesh, displacement)
     inner = _inner_gap(mesh, displacement)
     touching = [_touches(outer), _touches(inner)]
-    where = _named(*touching, itself)
+    where = _named(touching[0], touching[1], itself)
     note = UNMODELLED if any(touching) else ""
     return Contact(any(touching), outer, itself, inner, where, modelled=False, note=note)
 

@@ -61,8 +61,8 @@ class Load(Parameters):
     def _is_a_load(cls, pressure: float) -> float:
         if abs(pressure) < LEAST_PRESSURE:
             raise ValueError(
-                f"load.pressure is {pressure:g} MPa but must be at least {LEAST_PRESSURE:g} MPa, or "
-                f"at most {-LEAST_PRESSURE:g} MPa for a vacuum"
+                f"load.pressure is {pressure:g} MPa but must be at least {LEAST_PRESSURE:g} MPa, "
+                f"or at most {-LEAST_PRESSURE:g} MPa for a vacuum"
             )
         return pressure
 

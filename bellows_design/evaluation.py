@@ -136,8 +136,9 @@ class Evaluation:
     def _added_by_ends(self, point: PathPoint) -> tuple[float, float]:
         """Rotation (°) and volume (mm³) by which both ends differ from one bubble more.
 
-        They are a short actuator's, or a bubble's without neighbours (``_with_ends``). Both come from meshes of the same size, so that the mesh's own error drops out. Exact at
-        the pressures asked for; between them in proportion to the cell's rotation.
+        They are a short actuator's, or a bubble's without neighbours (``_with_ends``). Cell and
+        ends have meshes of the same size, so that the mesh's own error drops out. Exact at the
+        pressures asked for; between them in proportion to the cell's rotation.
         """
         if self.ends is None:
             return 0.0, 0.0

@@ -49,8 +49,8 @@ class Model:
 PEAK_TOLERANCE = 0.03
 
 PENETRATION = 0.005
-"""In thinnest walls. Four times as much moves the angle of Prototype 1 in vacuum by 0.7 %; two fifths
-of it by 0.3 %, with more iterations."""
+"""In thinnest walls. Four times as much moves the angle of Prototype 1's cell in vacuum by 0.7 %,
+two fifths of it by 0.3 %, with more iterations."""
 
 
 def _cell_solid(design: Design) -> NamedSolid:

@@ -241,8 +241,8 @@ class Touch:
 class Touches:
     """All contacts of a problem, and what they need of its tangent's pattern.
 
-    A surface that touches the moving plane couples with its tilt and shift. Places for that are made
-    only once something touches it: until then the pattern is the one without contact.
+    A surface that touches the moving plane couples with its tilt and shift. Places for that are
+    made only once something touches it: until then the pattern is the one without contact.
     """
 
     def __init__(
@@ -323,10 +323,10 @@ def lowest_gaps(problem: Problem, displacement: Reals, plane: Reals) -> tuple[fl
 
 
 def image_gaps(problem: Problem, displacement: Reals, plane: Reals) -> tuple[float | None, ...]:
-    """Narrowest air (mm) between each contact's surface and its mirror image; None if none faces it.
+    """Narrowest air (mm) between each contact's surface and its mirror image; None: no facing one.
 
-    Arguments as for ``lowest_gaps``. Seen from flat facets, but where the surface touches its image
-    by how far the two run into each other, negative.
+    Arguments as for ``lowest_gaps``. Seen from flat facets; but where the surface touches its
+    image, by how far the two run into each other, negative.
     """
     state = State(displacement, np.zeros(0), np.asarray(plane, float))
     lowest = lowest_gaps(problem, displacement, plane)
@@ -355,8 +355,9 @@ def _dofs(
     """Unknowns of triangles (k, 20): the moving plane's where they matter, else -1."""
     moving = problem.moving_plane
     on_plane = () if moving is None else problem.mesh.surface_nodes(moving)
-    coupled = np.isin(triangles, on_plane).any(axis=1) | (contact.axis is None)
-    plane = np.where(coupled[:, None], numbering.plane, -1).astype(np.int32)
+    plane = np.broadcast_to(numbering.plane, (len(triangles), 2)).copy()
+    if contact.axis is not None:
+        plane[~np.isin(triangles, on_plane).any(axis=1)] = -1
     return np.ascontiguousarray(np.hstack([numbering.of_triangles(triangles), plane]))
 
 

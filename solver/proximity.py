@@ -54,7 +54,9 @@ def facing_gaps(
     facets = np.concatenate([outlook, _flat_facets(mesh.triangles(*others))])
     body = trimesh.Trimesh(mesh.nodes + displacement, facets, process=False)
     centres, normals = body.triangles_center, body.face_normals
-    rays, met, ahead = _first_met(body, centres, normals, only=np.arange(len(outlook)))
+    rays, met, ahead = _first_met(
+        body, centres, normals, only=np.arange(len(outlook), dtype=np.int32)
+    )
     cosine = np.einsum("ki,ki->k", normals[rays], normals[met])
     kept = np.abs(cosine) >= -OPPOSING
     rays, met, ahead, inside = rays[kept], met[kept], ahead[kept], cosine[kept] > 0

@@ -46,7 +46,7 @@ def upper_pattern(dofs: Integers, size: int) -> Pattern:
     return Pattern(indptr.astype(np.int32), indices)
 
 
-def widened(pattern: Pattern, dofs: Integers) -> tuple[Pattern, NDArray[np.int64]]:
+def widened(pattern: Pattern, dofs: Integers) -> tuple[Pattern, Integers]:
     """A pattern that also couples the unknowns within cells (e, m), and the old entries' places."""
     size = len(pattern.indptr) - 1
     rows = np.repeat(np.arange(size), np.diff(pattern.indptr))
@@ -57,7 +57,8 @@ def widened(pattern: Pattern, dofs: Integers) -> tuple[Pattern, NDArray[np.int64
     keys = np.union1d(old, (first * size + last)[first >= 0])
     counts = np.bincount(keys // size, minlength=size)
     indptr = np.concatenate([[0], np.cumsum(counts)]).astype(np.int32)
-    return Pattern(indptr, (keys % size).astype(np.int32)), np.searchsorted(keys, old)
+    places = np.searchsorted(keys, old).astype(np.int32)
+    return Pattern(indptr, (keys % size).astype(np.int32)), places
 
 
 def incidence(table: Integers, size: int) -> tuple[Integers, Integers]:
