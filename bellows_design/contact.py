@@ -16,7 +16,7 @@ from bellows_design.chain import chain
 from bellows_design.geometry import CAVITY, OUTSIDE, ROOT, SYMMETRY, TIP
 from bellows_design.parameters import BellowsParameters
 from solver import Mesh
-from solver.proximity import OPPOSING, facet_normals, facing_gaps
+from solver.proximity import OPPOSING, Gaps, facet_normals, facing_gaps
 
 if TYPE_CHECKING:
     from solver import Solution
@@ -52,7 +52,7 @@ class Contact:
 def contact_of(bellows: BellowsParameters, mesh: Mesh, displacement: np.ndarray) -> Contact:
     """Contact in an actuator, full or half, after ``displacement`` (n, 3), mm: none is modelled."""
     outer, itself = _outer_gap(bellows, mesh, displacement)
-    inner = _inner_gap(mesh, displacement)
+    inner = _inner_gap(bellows, mesh, displacement)
     touching = [_touches(outer), _touches(inner)]
     where = _named(touching[0], touching[1], itself)
     note = UNMODELLED if any(touching) else ""
@@ -108,7 +108,7 @@ def _outer_gap(
 ) -> tuple[float | None, bool]:
     """Narrowest air between neighbouring bubbles, mm, and whether distant parts overlap."""
     gaps = facing_gaps(mesh, displacement, *_closed(mesh))
-    apart = np.abs(_bubble(bellows, gaps.starts) - _bubble(bellows, gaps.ends))
+    apart = _bubbles_apart(bellows, gaps)
     # in the notch where a bubble stands on the tendon, facets face each other at any small distance
     notch = np.linalg.norm(gaps.starts - gaps.ends, axis=1) < bellows.bubble_distance / 2
     near = gaps.distances[(apart <= 1) & ~notch]
@@ -116,11 +116,15 @@ def _outer_gap(
     return narrowest, bool((gaps.distances[apart > 1] < 0).any())
 
 
-def _inner_gap(mesh: Mesh, displacement: np.ndarray) -> float | None:
-    """Narrowest air between walls inside, mm; None if no inner surface is there."""
+def _inner_gap(bellows: BellowsParameters, mesh: Mesh, displacement: np.ndarray) -> float | None:
+    """Narrowest air between walls inside, mm; None if no inner surface is there.
+
+    Distant parts that run through each other past a full turn do not count.
+    """
     if CAVITY not in mesh.surfaces:
         return None
-    gaps = facing_gaps(mesh, displacement, CAVITY, *_closed(mesh), seen_from=(CAVITY,)).distances
+    seen = facing_gaps(mesh, displacement, CAVITY, *_closed(mesh), seen_from=(CAVITY,))
+    gaps = seen.distances[_bubbles_apart(bellows, seen) <= 1]
     if SYMMETRY in mesh.surfaces:
         gaps = np.append(gaps, _gaps_across(mesh, displacement))
     return float(gaps.min()) if gaps.size else None
@@ -136,6 +140,11 @@ def _gaps_across(mesh: Mesh, displacement: np.ndarray) -> np.ndarray:
 def _closed(mesh: Mesh) -> tuple[str, ...]:
     """Surfaces that together close the actuator's outside."""
     return tuple(name for name in (OUTSIDE, ROOT, TIP, SYMMETRY) if name in mesh.surfaces)
+
+
+def _bubbles_apart(bellows: BellowsParameters, gaps: Gaps) -> np.ndarray:
+    """How many bubbles lie between the two facets of each gap, (k,)."""
+    return np.abs(_bubble(bellows, gaps.starts) - _bubble(bellows, gaps.ends))
 
 
 def _bubble(bellows: BellowsParameters, places: np.ndarray) -> np.ndarray:

@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Any, Self
 
 from pydantic import Field, ValidationError, field_validator, model_validator
+from pydantic_core import PydanticKnownError
 
 from bellows_design.errors import DesignError, did_you_mean, quoted, sentences
 from bellows_design.materials import Material, load_material, material_names
@@ -28,7 +29,7 @@ ATMOSPHERE = 0.101325
 """MPa. The standard atmosphere: no vacuum pulls more."""
 
 LEAST_PRESSURE = 0.001
-"""MPa."""
+"""MPa, of either sign."""
 
 MOST_DOTS = 100
 """In a line, outside of quoted text: reading a key takes time as the square of its parts."""
@@ -53,17 +54,16 @@ class Load(Parameters):
         ge=-ATMOSPHERE,
         le=0.6,
         description="design pressure inside the chambers over that outside, negative for a vacuum",
-        json_schema_extra={"unit": "MPa"},
+        json_schema_extra={"unit": "MPa", "least": LEAST_PRESSURE},
     )
 
     @field_validator("pressure")
     @classmethod
     def _is_a_load(cls, pressure: float) -> float:
-        if abs(pressure) < LEAST_PRESSURE:
-            raise ValueError(
-                f"load.pressure is {pressure:g} MPa but must be at least {LEAST_PRESSURE:g} MPa, "
-                f"or at most {-LEAST_PRESSURE:g} MPa for a vacuum"
-            )
+        if 0 <= pressure < LEAST_PRESSURE:
+            raise PydanticKnownError("greater_than_equal", {"ge": LEAST_PRESSURE})
+        if -LEAST_PRESSURE < pressure < 0:
+            raise PydanticKnownError("less_than_equal", {"le": -LEAST_PRESSURE})
         return pressure
 
 
