@@ -12,46 +12,66 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from solver.checkpoint import Checkpoint
+    from solver.continuation import Limit, Trace, trace
+    from solver.inflation import inflate
     from solver.interpolation import transfer
     from solver.loading import solve
+    from solver.loads import BodyForce, PointForce, Traction
     from solver.materials import Ogden
     from solver.mesh import Mesh
     from solver.models import Contact, Problem, SlenderAxis, Supports
     from solver.motion import rotation
     from solver.newton import Event, SolverOptions
+    from solver.reactions import Reaction, reaction
     from solver.results import PathPoint, Solution, cavity_volume, write_vtu
     from solver.stress import Peak, nodal_cauchy, nodal_von_mises, peak_von_mises
 
 _MODULES = {
+    "checkpoint": ("Checkpoint",),
+    "continuation": ("Limit", "Trace", "trace"),
+    "inflation": ("inflate",),
+    "interpolation": ("transfer",),
+    "loading": ("solve",),
+    "loads": ("BodyForce", "PointForce", "Traction"),
     "materials": ("Ogden",),
     "mesh": ("Mesh",),
     "models": ("Contact", "Problem", "SlenderAxis", "Supports"),
     "motion": ("rotation",),
     "newton": ("Event", "SolverOptions"),
-    "loading": ("solve",),
+    "reactions": ("Reaction", "reaction"),
     "results": ("PathPoint", "Solution", "cavity_volume", "write_vtu"),
     "stress": ("Peak", "nodal_cauchy", "nodal_von_mises", "peak_von_mises"),
-    "interpolation": ("transfer",),
 }
 
 __all__ = [
+    "BodyForce",
+    "Checkpoint",
     "Contact",
     "Event",
+    "Limit",
     "Mesh",
     "Ogden",
     "PathPoint",
     "Peak",
+    "PointForce",
     "Problem",
+    "Reaction",
     "SlenderAxis",
     "Solution",
     "SolverOptions",
     "Supports",
+    "Trace",
+    "Traction",
     "cavity_volume",
+    "inflate",
     "nodal_cauchy",
     "nodal_von_mises",
     "peak_von_mises",
+    "reaction",
     "rotation",
     "solve",
+    "trace",
     "transfer",
     "write_vtu",
 ]

@@ -11,11 +11,12 @@ from solver import kernels
 from solver.arrays import Integers, Reals
 from solver.constraints import Numbering, number_unknowns
 from solver.contact import Touches
-from solver.elements import tetrahedron_rule, triangle_rule
+from solver.elements import tetrahedron_rule
+from solver.loads import nodal_forces
 from solver.mesh import Mesh
-from solver.models import Problem
+from solver.models import Problem, Supports
 from solver.moving_plane import MovingPlane
-from solver.pressure import Skin, assemble_pressure, assemble_volume
+from solver.pressure import Skin, assemble_pressure, assemble_volume, skin
 from solver.sparsity import Pattern, chunks, upper_pattern
 from solver.state import State
 
@@ -67,11 +68,14 @@ class Assembly:
         self._at_plane = np.flatnonzero(at_plane).astype(np.int32)
         self._plane_dofs, self._plane_entries = plane_dofs, self.pattern.entries(plane_dofs)
         self._solid = solid(problem)
+        self.dead_force = self.numbering.gather(nodal_forces(mesh, problem.loads))
         self._skin = self._pressurised_skin()
         self.touches = Touches(problem, self.numbering, self.plane, self.pattern)
 
-    def evaluate(self, state: State, pressure: float, tangent: bool = True) -> Equilibrium:
-        """Residual, load and tangent at ``state`` under the applied ``pressure`` (MPa)."""
+    def evaluate(
+        self, state: State, pressure: float, tangent: bool = True, load: float = 0.0
+    ) -> Equilibrium:
+        """Residual and tangent at ``state`` under ``pressure`` (MPa) and a share of dead loads."""
         residual = np.zeros(self.numbering.size)
         force = np.zeros(self.numbering.size)
         values = np.zeros(len(self.pattern.indices) if tangent else 0)
@@ -93,7 +97,7 @@ class Assembly:
             assemble_volume(
                 self._skin, heights, state.plane[0], displacement, pressure, tangent, force, values
             )
-        residual += pressure * force
+        residual += pressure * force - load * self.dead_force
         values, pattern = self.touches.add(state, tangent, residual, values)
         return Equilibrium(residual, force, values, float(jacobians.min(initial=np.inf)), pattern)
 
@@ -108,20 +112,37 @@ class Assembly:
         return np.hstack([dofs, plane])
 
     def _pressurised_skin(self) -> Skin:
-        rule = triangle_rule()
         triangles = self.problem.mesh.triangles(*self.problem.pressurised)
         dofs = self.numbering.of_triangles(triangles)
         if self.plane is not None:
             dofs = self._with_plane(dofs)
-        return Skin(
-            nodes=self.problem.mesh.nodes,
-            triangles=triangles,
-            shapes=rule.quadratic,
-            gradients=rule.gradients,
-            weights=rule.weights,
-            dofs=dofs,
-            entries=self.pattern.entries(dofs),
-        )
+        return skin(self.problem.mesh, triangles, dofs, self.pattern.entries(dofs))
+
+
+def unbalanced_forces(problem: Problem, state: State, pressure: float, load: float) -> Reals:
+    """Nodal forces (n, 3) in N that are missing to equilibrium: zero but where supports act.
+
+    Under ``pressure`` (MPa) and the fraction ``load`` of the dead loads.
+    """
+    mesh = problem.mesh
+    everything = number_unknowns(mesh, NO_SUPPORTS)
+    dofs = everything.of_tets(mesh)
+    places = kernels.Places(*chunks(mesh), dofs, np.empty((len(dofs), 0), np.int32))
+    residual, force, nothing = np.zeros(everything.size), np.zeros(everything.size), np.zeros(0)
+    displacement = np.ascontiguousarray(state.displacement)
+    kernels.assemble(
+        solid(problem), places, displacement, state.hydrostatic_pressure,
+        False, residual, nothing, np.empty(len(mesh.tets)),
+    )  # fmt: skip
+    triangles = mesh.triangles(*problem.pressurised)
+    no_entries = np.empty((len(triangles), 0), np.int32)
+    loaded = skin(mesh, triangles, everything.of_triangles(triangles), no_entries)
+    assemble_pressure(loaded, displacement, pressure, False, force, nothing)
+    forces, _, _ = everything.expand(residual + pressure * force)
+    return forces - load * nodal_forces(mesh, problem.loads)
+
+
+NO_SUPPORTS = Supports()
 
 
 def _touching(tets: Integers, plane: MovingPlane | None) -> NDArray[np.bool_]:
@@ -148,7 +169,9 @@ def solid(problem: Problem) -> kernels.Solid:
         tet_vertices=mesh.tet_vertices,
         mu=mu,
         alpha=alpha,
+        higher=material.higher_coefficients,
         compliance=material.compliance,
+        logarithmic=material.volumetric == "logarithmic",
         gradients=rule.gradients,
         linear=rule.linear,
         weights=rule.weights,

@@ -1,20 +1,25 @@
-"""Compiled kernels of the solid: spectral Ogden response and element loops.
+"""Compiled kernels of the solid: spectral Ogden and Yeoh response and element loops.
 
 One file on purpose: numba's cache notices changes of a function's own file only, so a leaf kept
 elsewhere could leave a stale kernel behind.
 
 Energy of the mixed form, with the hydrostatic pressure q (positive in compression) as a field:
 
-    Pi(u, q) = integral of  W(e) - q (J - 1) - q^2 / (2 K)
+    Pi(u, q) = integral of  W(e) - q (J - 1) + G(q)
 
-where e_i = ln(lambda_i) - ln(J) / 3 are the isochoric principal log stretches. Residual and
-tangent are its first and second derivatives, so the tangent is symmetric. With dJ = 0 the last
-term vanishes (1 / K = 0). Everything starts from the displacement gradient H and the spectrum of
-b - 1 = H + H^T + H H^T, so that small strains keep full relative precision.
+where e_i = ln(lambda_i) - ln(J) / 3 are the isochoric principal log stretches, and G the Legendre
+transform of the volumetric energy U: its derivative is G' = theta(q) - 1, with U'(theta) = -q, so
+that q enforces J = theta(q). Incompressible means theta = 1 and G = 0 (1 / K = 0). Residual and
+tangent are the first and second derivatives of Pi, so the tangent is symmetric. Everything starts
+from the displacement gradient H and the spectrum of b - 1 = H + H^T + H H^T, so that small strains
+keep full relative precision.
 
 Ogden in Abaqus's form, W = sum 2 mu / alpha^2 (sum_i exp(alpha e_i) - 3), is evaluated with
 phi1(x) = expm1(x) / x and phi2(x) = (exp(x) - 1 - x) / x^2, which need no switch at equal
-stretches nor at alpha -> 0 (Hencky).
+stretches nor at alpha -> 0 (Hencky). Yeoh's terms sum C_i0 (I1 - 3)^i of order i >= 2 have the
+first and second derivatives W' and W'' by I1. They act as an Ogden term of mu = 2 W' and
+alpha = 2 whose mu depends on the strain, which adds 4 W'' l_i^2 l_j^2, of rank one, to the
+derivatives of the stress.
 
 Local numbering of an element's 34 unknowns: 3 a + i for displacement i of node a, 30 + k for the
 pressure of vertex k.
@@ -37,9 +42,10 @@ class Solid(NamedTuple):
     """A meshed body as the kernels see it.
 
     ``nodes`` (n, 3), ``tets`` (e, 10), ``tet_vertices`` (e, 4) in the numbering of pressures;
-    Ogden's ``mu`` and ``alpha`` (terms,), ``compliance`` = 1 / K; at the q quadrature points the
-    ``gradients`` (q, 10, 3) of the quadratic shape functions with respect to (r, s, t), the values
-    of the ``linear`` ones (q, 4), and ``weights`` (q,).
+    Ogden's ``mu`` and ``alpha`` (terms,), Yeoh's ``higher`` = C20, C30, ... (orders,),
+    ``compliance`` = 1 / K and whether the volumetric law is the ``logarithmic`` one; at the q
+    quadrature points the ``gradients`` (q, 10, 3) of the quadratic shape functions with respect to
+    (r, s, t), the values of the ``linear`` ones (q, 4), and ``weights`` (q,).
     """
 
     nodes: Reals
@@ -47,7 +53,9 @@ class Solid(NamedTuple):
     tet_vertices: Integers
     mu: Reals
     alpha: Reals
+    higher: Reals
     compliance: float
+    logarithmic: bool
     gradients: Reals
     linear: Reals
     weights: Reals
@@ -135,6 +143,86 @@ def divided_stress(mean: float, gap: float, mu: Reals, alpha: Reals) -> float:
     for k in range(mu.size):
         total += 2.0 * mu[k] * math.exp(alpha[k] * mean) * sinhc(0.5 * alpha[k] * gap)
     return total
+
+
+@njit(cache=True, error_model="numpy")
+def first_invariant(e: Reals) -> float:
+    """I1 - 3 of isochoric log stretches e (3,), without cancellation: sum 4 e_i^2 phi2(2 e_i)."""
+    total = 0.0
+    for i in range(3):
+        total += 4.0 * e[i] * e[i] * phi2(2.0 * e[i])
+    return total
+
+
+@njit(cache=True, error_model="numpy")
+def higher_energy(e: Reals, higher: Reals) -> float:
+    """Yeoh's sum C_i0 (I1 - 3)^i over i >= 2, MPa."""
+    if higher.size == 0:
+        return 0.0
+    x = first_invariant(e)
+    total = 0.0
+    for k in range(higher.size - 1, -1, -1):
+        total = total * x + higher[k]
+    return total * x * x
+
+
+@njit(cache=True, error_model="numpy")
+def higher_moduli(e: Reals, higher: Reals) -> tuple[float, float]:
+    """2 W' and 4 W'' of ``higher_energy``, derivatives by I1; MPa."""
+    if higher.size == 0:
+        return 0.0, 0.0
+    x = first_invariant(e)
+    first = 0.0
+    second = 0.0
+    for k in range(higher.size - 1, -1, -1):
+        first = first * x + (k + 2) * higher[k]
+        second = second * x + (k + 2) * (k + 1) * higher[k]
+    return 2.0 * first * x, 4.0 * second
+
+
+@njit(cache=True, error_model="numpy")
+def undeviated_stress(e: Reals, mu: Reals, alpha: Reals, modulus: float, stress: Reals) -> None:
+    """``ogden_stress`` with the higher terms' 2 W' = ``modulus`` as a term of alpha = 2."""
+    ogden_stress(e, mu, alpha, stress)
+    if modulus != 0.0:
+        for i in range(3):
+            stress[i] += 2.0 * modulus * e[i] * phi1(2.0 * e[i])
+
+
+@njit(cache=True, error_model="numpy")
+def add_rank_one(e: Reals, factor: float, normal: Reals) -> None:
+    """Add ``factor`` times d_i d_j to ``normal`` (3, 3), d the deviator of the l_i^2."""
+    squares = np.empty(3)
+    mean = 0.0
+    for i in range(3):
+        squares[i] = 2.0 * e[i] * phi1(2.0 * e[i])
+        mean += squares[i] / 3.0
+    for i in range(3):
+        for j in range(3):
+            normal[i, j] += factor * (squares[i] - mean) * (squares[j] - mean)
+
+
+@njit(cache=True, error_model="numpy")
+def volume_law(q: float, compliance: float, logarithmic: bool) -> tuple[float, float]:
+    """theta(q) - 1 and -theta'(q), 1/MPa, of the volumetric law; see ``volume_energy``."""
+    if not logarithmic:
+        return -compliance * q, compliance
+    a = math.asinh(compliance * q)
+    return math.expm1(-a), compliance * math.exp(-a) / math.cosh(a)
+
+
+@njit(cache=True, error_model="numpy")
+def volume_energy(q: float, compliance: float, logarithmic: bool) -> float:
+    """G(q) = U(theta) + q (theta - 1), MPa.
+
+    Quadratic, U = K (J - 1)^2 / 2: theta = 1 - q / K and G = -q^2 / (2 K). Logarithmic,
+    U = K (J^2 - 1 - 2 ln J) / 4: theta = exp(-a) with sinh a = q / K, and
+    G = K a^2 (phi2(-2 a) - sinhc(a) phi1(-a)).
+    """
+    if not logarithmic:
+        return -0.5 * compliance * q * q
+    a = math.asinh(compliance * q)
+    return q * a * (phi2(-2.0 * a) / sinhc(a) - phi1(-a))
 
 
 @njit(cache=True, error_model="numpy")
@@ -228,6 +316,7 @@ def principal_response(
     spherical: float,
     mu: Reals,
     alpha: Reals,
+    higher: Reals,
     stress: Reals,
     normal: Reals,
     shear: Reals,
@@ -235,12 +324,16 @@ def principal_response(
     """Kirchhoff stress and its spatial tangent in principal axes.
 
     ``logs`` and the diagonal of ``b`` as ``spectrum`` leaves them; ``spherical`` = -q J is added
-    to the deviatoric Ogden part. Fills ``stress`` (3,), ``normal`` (3, 3) = d tau_i / d ln(l_j)
+    to the deviatoric part. Fills ``stress`` (3,), ``normal`` (3, 3) = d tau_i / d ln(l_j)
     - 2 tau_i delta_ij, and ``shear`` (3,) of the pairs (0, 1) (1, 2) (2, 0).
     """
     stiffness = np.empty(3)
-    ogden_stress(logs, mu, alpha, stress)
+    modulus, curvature = higher_moduli(logs, higher)
+    undeviated_stress(logs, mu, alpha, modulus, stress)
     ogden_stiffness(logs, mu, alpha, stiffness)
+    if modulus != 0.0:
+        for i in range(3):
+            stiffness[i] += 2.0 * modulus * math.exp(2.0 * logs[i])
     mean_stress = (stress[0] + stress[1] + stress[2]) / 3.0
     mean_stiffness = (stiffness[0] + stiffness[1] + stiffness[2]) / 9.0
     for i in range(3):
@@ -249,10 +342,15 @@ def principal_response(
         for j in range(3):
             normal[i, j] = spherical + mean_stiffness - (stiffness[i] + stiffness[j]) / 3.0
         normal[i, i] += stiffness[i] - 2.0 * stress[i]
+    if curvature != 0.0:
+        add_rank_one(logs, curvature, normal)
     for i in range(3):
         j = (i + 1) % 3
         gap = 0.5 * math.log1p((b[i, i] - b[j, j]) / (1.0 + b[j, j]))
-        divided = divided_stress(0.5 * (logs[i] + logs[j]), gap, mu, alpha)
+        mean = 0.5 * (logs[i] + logs[j])
+        divided = divided_stress(mean, gap, mu, alpha)
+        if modulus != 0.0:
+            divided += 2.0 * modulus * math.exp(2.0 * mean) * sinhc(gap)
         shear[i] = shear_stiffness(divided, gap, stress[i] + stress[j])
 
 
@@ -356,7 +454,8 @@ def element_energy(solid: Solid, x: Reals, u: Reals, q: Reals) -> tuple[float, f
         if change <= -1.0:
             return np.nan, np.nan
         density = ogden_energy(logs, solid.mu, solid.alpha) - pressure * change
-        energy += dv * (density - 0.5 * solid.compliance * pressure * pressure)
+        density += higher_energy(logs, solid.higher)
+        energy += dv * (density + volume_energy(pressure, solid.compliance, solid.logarithmic))
         volume += dv
     return energy, volume
 
@@ -412,18 +511,20 @@ def element_response(
             pressure += solid.linear[point, v] * q[v]
         spectrum(h, b, vectors, logs)
         principal_response(
-            logs, b, -pressure * jacobian, solid.mu, solid.alpha, stress, normal, shear
-        )
+            logs, b, -pressure * jacobian, solid.mu, solid.alpha, solid.higher,
+            stress, normal, shear,
+        )  # fmt: skip
         to_global_axes(vectors, stress, normal, shear, tau, stiffness)
         for a in range(10):
             r[3 * a] += dv * (tau[0] * g[a, 0] + tau[3] * g[a, 1] + tau[5] * g[a, 2])
             r[3 * a + 1] += dv * (tau[3] * g[a, 0] + tau[1] * g[a, 1] + tau[4] * g[a, 2])
             r[3 * a + 2] += dv * (tau[5] * g[a, 0] + tau[4] * g[a, 1] + tau[2] * g[a, 2])
+        swelling, flexibility = volume_law(pressure, solid.compliance, solid.logarithmic)
         for v in range(4):
-            r[30 + v] -= dv * solid.linear[point, v] * (change + solid.compliance * pressure)
+            r[30 + v] -= dv * solid.linear[point, v] * (change - swelling)
         if tangent:
             _add_displacement_tangent(g, tau, stiffness, dv, k)
-            _add_pressure_tangent(g, solid.linear[point], dv * jacobian, dv * solid.compliance, k)
+            _add_pressure_tangent(g, solid.linear[point], dv * jacobian, dv * flexibility, k)
     return smallest
 
 
@@ -456,16 +557,16 @@ def _add_displacement_tangent(g: Reals, tau: Reals, stiffness: Reals, dv: float,
 
 @njit(cache=True, error_model="numpy")
 def _add_pressure_tangent(
-    g: Reals, linear: Reals, jacobian_dv: float, compliance_dv: float, k: Reals
+    g: Reals, linear: Reals, jacobian_dv: float, flexibility_dv: float, k: Reals
 ) -> None:
-    """Coupling -J g_a N_k and, for a finite bulk modulus, -N_k N_l / K."""
+    """Coupling -J g_a N_k and, for a finite bulk modulus, theta'(q) N_k N_l."""
     for v in range(4):
         factor = jacobian_dv * linear[v]
         for a in range(10):
             for i in range(3):
                 k[3 * a + i, 30 + v] -= factor * g[a, i]
         for w in range(v, 4):
-            k[30 + v, 30 + w] -= compliance_dv * linear[v] * linear[w]
+            k[30 + v, 30 + w] -= flexibility_dv * linear[v] * linear[w]
 
 
 @njit(cache=True, error_model="numpy")
@@ -668,7 +769,8 @@ def deviatoric_stress(solid: Solid, displacement: Reals, stress: Reals, dv: Real
             dv[element, point] = determinant * solid.weights[point]
             displacement_gradient(u, gradients, h)
             spectrum(h, b, vectors, logs)
-            ogden_stress(logs, solid.mu, solid.alpha, principal)
+            modulus, _ = higher_moduli(logs, solid.higher)
+            undeviated_stress(logs, solid.mu, solid.alpha, modulus, principal)
             mean = (principal[0] + principal[1] + principal[2]) / 3.0
             jacobian = 1.0 + volume_change(h)
             for c in range(6):

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from solver.arrays import Integers, Reals
-from solver.sparsity import Pattern, multiply_symmetric
+from solver.sparsity import Pattern, is_odd, multiply_symmetric
 
 
 class LinearSolver(Protocol):
@@ -22,10 +22,14 @@ class LinearSolver(Protocol):
     ``analyze`` once per pattern, ``factorize`` once per matrix, ``solve`` once per right-hand
     side. ``factorize`` raises ``SingularMatrix`` where the factorization breaks down.
     ``negative_pivots`` counts the negative eigenvalues of the last matrix; None where unknown.
+    ``odd_negative`` says whether their number is odd, which may be known where it is not.
     """
 
     name: str
     negative_pivots: int | None
+
+    @property
+    def odd_negative(self) -> bool | None: ...
 
     def analyze(self, pattern: Pattern) -> None: ...
     def factorize(self, values: Reals) -> None: ...
@@ -76,6 +80,11 @@ class Pardiso:
         self._pattern: Pattern | None = None
         self._values = np.zeros(0, self._precision)
         weakref.finalize(self, _release, self._pardiso, self._handle, self._parameters)
+
+    @property
+    def odd_negative(self) -> bool | None:
+        """Whether the last matrix has an odd number of negative eigenvalues."""
+        return None if self.negative_pivots is None else self.negative_pivots % 2 == 1
 
     def analyze(self, pattern: Pattern) -> None:
         """Fill-reducing ordering and symbolic factorization."""
@@ -170,10 +179,15 @@ def _release(function: Any, handle: NDArray[np.int64], parameters: Integers) -> 
 
 
 class SuperLU:
-    """SciPy's SuperLU on the whole matrix: slower and hungrier, but everywhere."""
+    """SciPy's SuperLU on the whole matrix: slower and hungrier, but everywhere.
+
+    Its pivots are not the matrix's inertia, but their signs and the swaps of rows and columns give
+    the sign of the determinant: whether the number of negative eigenvalues is odd.
+    """
 
     name = "superlu"
     negative_pivots: int | None = None
+    odd_negative: bool | None = None
 
     def analyze(self, pattern: Pattern) -> None:
         """Build the full matrix's pattern and where its values come from."""
@@ -202,6 +216,9 @@ class SuperLU:
             )
         except RuntimeError as error:
             raise SingularMatrix(str(error)) from error
+        negative = int(np.count_nonzero(self._factor.U.diagonal() < 0))
+        swaps = (is_odd(order) for order in (self._factor.perm_r, self._factor.perm_c))
+        self.odd_negative = bool((negative + sum(swaps)) % 2 == 1)
 
     def solve(self, right_hand_side: Reals) -> Reals:
         """Solve with the last factorization and one step of iterative refinement."""

@@ -2,54 +2,69 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 
 import numpy as np
 
 from solver.arrays import Reals
+from solver.checkpoint import Checkpoint
 from solver.models import Problem
-from solver.newton import Attempt, Listener, Newton, SolverOptions
+from solver.newton import Attempt, Effort, Listener, Newton, SolverOptions
 from solver.results import PathPoint, Solution
 from solver.state import State
 
 
 def solve(
     problem: Problem,
-    pressure: float,
+    pressure: float = 0.0,
     options: SolverOptions | None = None,
     listener: Listener | None = None,
     initial: tuple[Reals, Reals] | None = None,
     stops: Sequence[float] = (),
+    resume: Checkpoint | None = None,
 ) -> Solution:
     """Equilibrium of ``problem`` under ``pressure`` (MPa), walked from zero load.
 
+    Dead loads and prescribed motions of the problem grow along with the pressure.
     With ``initial`` = (displacement (n, 3), hydrostatic pressure (v,)), for instance from
     ``solver.interpolation``, Newton starts there at full load; should that fail, the load is walked
     as usual. The path has a point at each of the pressures ``stops`` (MPa) between zero and
     ``pressure``: passed on the way up, or visited on the way back down after a start at full load.
+    With ``resume``, a checkpoint that a listener was given on an earlier run of the same problem,
+    pressure, options and stops, the walk goes on from there, to the same bits.
     A load that cannot be reached gives the last good state with ``converged`` False
-    and a ``message``, never a diverged state. Raises ``ValueError`` for bad input.
+    and a ``message``, never a diverged state; if a limit point is why, ``limit`` says at what
+    pressure. Raises ``ValueError`` for bad input.
     """
     if not np.isfinite(pressure):
         raise ValueError(f"pressure must be a finite number of MPa, got {pressure}.")
     start = time.perf_counter()
     loads = _stops(stops, float(pressure))
     newton = Newton(problem, float(pressure), options or SolverOptions(), listener)
-    walk = None if initial is None else _jump(newton, _start(newton, *initial), loads)
+    walk = None
+    if resume is not None:
+        walk = _walk(newton, loads, *_resumed(newton, resume))
+    elif initial is not None:
+        walk = _jump(newton, _start(newton, *initial), loads)
     if walk is None:
-        walk = _walk(newton, loads)
-    return _solution(newton, walk, time.perf_counter() - start)
+        walk = _walk(newton, loads, *_from_zero(newton))
+    return solution_of(newton, walk, time.perf_counter() - start)
 
 
 @dataclass(frozen=True)
 class Walk:
-    """How far the load came: the last good ``state``, the ``path`` to it, why it stopped."""
+    """How far the load came: the last good ``state``, the ``path`` to it, why it stopped.
+
+    ``limit``: the load of the limit point that was in the way.
+    """
 
     state: State
     path: tuple[PathPoint, ...]
     failure: str = ""
+    limit: float | None = None
 
 
 def _stops(pressures: Sequence[float], pressure: float) -> tuple[float, ...]:
@@ -70,29 +85,16 @@ def _jump(newton: Newton, initial: State, stops: tuple[float, ...]) -> Walk | No
         newton.notify("refused", 1.0, initial, attempt.iterations, np.inf)
         return None
     newton.effort.load_steps += 1
-    points: tuple[PathPoint, ...] = (newton.point(attempt.state, 1.0, attempt.iterations),)
+    points: tuple[PathPoint, ...] = (
+        newton.point(attempt.state, 1.0, attempt.iterations, newton.stable),
+    )
     leg = Leg(attempt, 1.0, 1.0)
     for stop in reversed(stops):
         leg = _walk_to(newton, stop, leg)
         if leg.failure:
             return None
         points = (*reversed(leg.points), *points)
-    return Walk(attempt.state, (newton.point(State.zero(newton.problem), 0.0, 0), *points))
-
-
-def _walk(newton: Newton, stops: tuple[float, ...]) -> Walk:
-    """Up from zero load, through ``stops``."""
-    zero = State.zero(newton.problem)
-    equilibrium = newton.assembly.evaluate(zero, 0.0)
-    newton.factorize(equilibrium)
-    points: tuple[PathPoint, ...] = (newton.point(zero, 0.0, 0),)
-    leg = Leg(Attempt(zero, 0, force=equilibrium.force), 0.0, newton.options.first_step)
-    for stop in (*stops, 1.0):
-        leg = _walk_to(newton, stop, leg)
-        points += leg.points
-        if leg.failure:
-            break
-    return Walk(leg.reached.state, points, leg.failure)
+    return Walk(attempt.state, (newton.point(State.zero(newton.problem), 0.0, 0, True), *points))
 
 
 @dataclass(frozen=True)
@@ -106,47 +108,144 @@ class Leg:
     failure: str = ""
 
 
-def _walk_to(newton: Newton, end: float, leg: Leg) -> Leg:
+def _from_zero(newton: Newton) -> tuple[Leg, tuple[PathPoint, ...]]:
+    """Before the first step: the unloaded body."""
+    zero = State.zero(newton.problem)
+    equilibrium = newton.evaluate(zero, 0.0)
+    newton.factorize(equilibrium, zero, 0.0)
+    attempt = Attempt(zero, 0, rate=newton.rate(zero, 0.0, equilibrium))
+    return Leg(attempt, 0.0, newton.options.first_step), (
+        newton.point(zero, 0.0, 0, newton.stable),
+    )
+
+
+def _resumed(newton: Newton, checkpoint: Checkpoint) -> tuple[Leg, tuple[PathPoint, ...]]:
+    """After the step of a checkpoint, with the factorization that was at hand there."""
+    reached, load = checkpoint.reached, checkpoint.load
+    _check_shapes(newton, reached.displacement, reached.hydrostatic_pressure)
+    if checkpoint.sharp:
+        newton.sharpen()
+    linearised = checkpoint.linearised, checkpoint.linearised_load
+    newton.factorize(newton.evaluate(*linearised), *linearised)
+    newton.effort = Effort(*checkpoint.effort)
+    rate = newton.rate(reached, load, newton.evaluate(reached, load, tangent=False))
+    return Leg(Attempt(reached, 0, rate=rate), load, checkpoint.step), checkpoint.points
+
+
+def _walk(newton: Newton, stops: tuple[float, ...], leg: Leg, points: Sequence[PathPoint]) -> Walk:
+    """Up from a leg's end through ``stops``; ``points``: the path so far."""
+    path = tuple(points)
+    for stop in (*(stop for stop in stops if stop > leg.load), 1.0):
+        leg = _walk_to(newton, stop, leg, path)
+        path += leg.points
+        if leg.failure:
+            return _stopped(newton, leg, path)
+    return Walk(leg.reached.state, path)
+
+
+def _stopped(newton: Newton, leg: Leg, path: tuple[PathPoint, ...]) -> Walk:
+    """A walk that came no further, and the limit point that was in the way if there is one."""
+    from solver.continuation import limit_ahead
+
+    limit = limit_ahead(newton, leg.reached.state, leg.load, STEPS_TO_A_LIMIT)
+    if limit is None or abs(limit.point.load - leg.load) > NEAR * abs(leg.load):
+        return Walk(leg.reached.state, path, leg.failure)
+    return Walk(leg.reached.state, path, limit.describe(newton.pressure), limit.point.load)
+
+
+NEAR = 0.05
+"""A limit further ahead, in fractions of the load reached, is not what stopped a walk."""
+
+STEPS_TO_A_LIMIT = 12
+"""Steps by arc length that may be spent on finding out what stopped a walk."""
+
+
+def _walk_to(newton: Newton, end: float, leg: Leg, path: tuple[PathPoint, ...] = ()) -> Leg:
     """Adaptive load steps, up or down: predict along the tangent, correct, grow or cut the step.
 
-    Needs a factorization near the state it starts from.
+    Needs a factorization near the state it starts from. ``path``: what came before, for
+    checkpoints.
     """
     options = newton.options
     reached, load, step = leg.reached, leg.load, leg.step
     points: tuple[PathPoint, ...] = ()
-    direction = newton.direction(reached.force)
+    direction = newton.direction(reached.rate)
     while load != end:
         last = abs(end - load) <= step * (1 + 1e-9)
-        target = end if last else load + np.copysign(step, end - load)
-        guess = newton.advance(reached.state, direction, target - load)
+        target = end if last else load + math.copysign(step, end - load)
+        guess = newton.predicted(reached.state, direction, load, target)
         attempt = newton.correct(
             guess, target, options.tolerance if last else options.loose_tolerance
         )
-        if attempt.failure:
+        failure = attempt.failure or _leapt(newton, reached.state, guess, attempt.state)
+        if failure:
             newton.effort.refused_steps += 1
             newton.notify("refused", target, reached.state, attempt.iterations, np.inf)
             step = options.cut * abs(target - load)
             if step < options.smallest_step:
-                return Leg(reached, load, step, points, attempt.failure)
+                return Leg(reached, load, step, points, failure)
             if step < SHARPENED:
                 newton.sharpen()
             continue
         step = max(step, options.growth * abs(target - load))
         reached, load = attempt, target
-        points += (newton.point(attempt.state, load, attempt.iterations),)
+        points += (newton.point(attempt.state, load, attempt.iterations, newton.stable),)
         newton.effort.load_steps += 1
-        newton.notify("step", load, attempt.state, attempt.iterations, 0.0)
+        _report(newton, attempt.state, load, step, (*path, *points))
         if load != end:
-            direction = newton.direction(attempt.force)
+            direction = newton.direction(attempt.rate)
     return Leg(reached, load, step, points)
 
 
 SHARPENED = 0.03
 """A step cut below this fraction of the load asks for double precision."""
 
+LEAP = 4.0
+"""A state so many times further away than predicted lies on another branch."""
+
+NOTICEABLE = 0.02
+"""Fraction of the body's diagonal; no shorter way is a leap."""
+
+
+def _leapt(newton: Newton, before: State, predicted: State, found: State) -> str:
+    """Why a state is none that the body comes to by a small step: it has snapped through."""
+    expected = np.abs(predicted.displacement - before.displacement).max()
+    moved = np.abs(found.displacement - before.displacement).max()
+    size = newton.problem.mesh.size
+    if moved > LEAP * expected + NOTICEABLE * size:
+        return "the next stable state is far away"
+    return ""
+
+
+def _report(
+    newton: Newton, state: State, load: float, step: float, path: tuple[PathPoint, ...]
+) -> None:
+    """Tell the listener of a step, with a checkpoint to go on from."""
+    if newton.listener is None:
+        return
+    effort = newton.effort
+    checkpoint = Checkpoint(
+        reached=state,
+        load=load,
+        step=step,
+        linearised=newton.linearised,
+        linearised_load=newton.linearised_load,
+        sharp=newton.sharp,
+        points=path,
+        effort=astuple(effort),
+    )
+    newton.notify("step", load, state, path[-1].iterations, 0.0, checkpoint)
+
 
 def _start(newton: Newton, displacement: Reals, pressure: Reals) -> State:
     """A given state as a start; ``ValueError`` if its shapes do not fit the mesh."""
+    _check_shapes(newton, displacement, pressure)
+    state = newton.placed(State(displacement, pressure), 1.0)
+    plane = newton.assembly.plane
+    return state if plane is None else plane.fitted(state)
+
+
+def _check_shapes(newton: Newton, displacement: Reals, pressure: Reals) -> None:
     expected = State.zero(newton.problem)
     for name, given, wanted in (
         ("displacement", displacement, expected.displacement),
@@ -156,20 +255,18 @@ def _start(newton: Newton, displacement: Reals, pressure: Reals) -> State:
             raise ValueError(
                 f"initial: {name} must have the shape {wanted.shape}, got {np.shape(given)}."
             )
-    state = newton.supported(displacement, pressure)
-    plane = newton.assembly.plane
-    return state if plane is None else plane.fitted(state)
 
 
-def _solution(newton: Newton, walk: Walk, seconds: float) -> Solution:
+def solution_of(newton: Newton, walk: Walk, seconds: float) -> Solution:
     """Pack up."""
-    reached = walk.path[-1].pressure
-    share = f"{reached:.4g} of {newton.pressure:.4g} MPa"
+    end = walk.path[-1]
+    share = _share(newton.pressure, end.load)
     message = f"stopped at {share}: {walk.failure}." if walk.failure else f"reached {share}."
     effort = newton.effort
+    limit = walk.limit
     return Solution(
         problem=newton.problem,
-        pressure=reached,
+        pressure=end.pressure,
         displacement=walk.state.displacement,
         hydrostatic_pressure=walk.state.hydrostatic_pressure,
         path=walk.path,
@@ -183,4 +280,13 @@ def _solution(newton: Newton, walk: Walk, seconds: float) -> Solution:
         negative_pivots=newton.matrix.negative_pivots,
         seconds=seconds,
         plane=(float(walk.state.plane[0]), float(walk.state.plane[1])),
+        load=end.load,
+        limit=limit if limit is None or not newton.pressure else limit * newton.pressure,
     )
+
+
+def _share(pressure: float, load: float) -> str:
+    """How much of what was asked for."""
+    if pressure:
+        return f"{load * pressure:.4g} of {pressure:.4g} MPa"
+    return f"{100 * load:.4g} % of the load"

@@ -2,26 +2,40 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
+from solver.arrays import Reals
 from solver.materials import Ogden
 from solver.mesh import Mesh
+
+if TYPE_CHECKING:
+    from solver.loads import Load
+
+Placement: TypeAlias = Callable[[Reals, float], Reals]
+"""(reference positions (k, 3) in mm, fraction of the load) -> displacements (k, 3) in mm.
+
+NaN where a component is free; zero at no load.
+"""
 
 
 @dataclass(frozen=True)
 class Supports:
-    """Surfaces that are held.
+    """Surfaces that are held or led.
 
     - ``clamped``: surfaces with zero displacement.
     - ``symmetry``: surface -> axis (0, 1, 2) whose displacement is zero on it.
+    - ``prescribed``: surface -> ``Placement``, where it is at each fraction of the load; it
+      overrules the others on shared nodes.
     """
 
     clamped: tuple[str, ...] = ()
     symmetry: Mapping[str, int] = field(default_factory=dict)
+    prescribed: Mapping[str, Placement] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         for surface, axis in self.symmetry.items():
@@ -31,6 +45,7 @@ class Supports:
                 )
         object.__setattr__(self, "clamped", tuple(self.clamped))
         object.__setattr__(self, "symmetry", MappingProxyType(dict(self.symmetry)))
+        object.__setattr__(self, "prescribed", MappingProxyType(dict(self.prescribed)))
 
 
 @dataclass(frozen=True)
@@ -81,6 +96,7 @@ class Contact:
 class Problem:
     """A hyperelastic solid under a follower pressure on the surfaces ``pressurised``.
 
+    Dead ``loads`` and prescribed motions grow with the pressure, from nothing to their full size.
     With an ``axis`` the nonlinear solver moves the body by finite rotations (``solver.motion``).
     ``moving_plane`` names a plane surface normal to x that stays plane, free to turn about y and
     to shift along x: the section between two cells of a uniform chain, which goes on behind it.
@@ -95,20 +111,26 @@ class Problem:
     mesh: Mesh
     material: Ogden
     supports: Supports
-    pressurised: tuple[str, ...]
+    pressurised: tuple[str, ...] = ()
+    loads: tuple[Load, ...] = ()
     axis: SlenderAxis | None = None
     moving_plane: str | None = None
     sharp_edge_radius: float = 0.0
     contacts: tuple[Contact, ...] = ()
 
     def __post_init__(self) -> None:
-        from solver.constraints import check_supports
+        from solver.constraints import check_pressure, check_supports, fixed_displacements
 
         object.__setattr__(self, "pressurised", tuple(self.pressurised))
+        object.__setattr__(self, "loads", tuple(self.loads))
         self.mesh.triangles(*self.pressurised)
         object.__setattr__(self, "contacts", tuple(self.contacts))
         _check_contacts(self)
+        if self.loads and self.moving_plane is not None:
+            raise ValueError("loads: a cell with a moving plane takes pressure only.")
         check_supports(self.mesh, self.supports, self.moving_plane)
+        if self.material.compliance == 0:
+            check_pressure(self.mesh, fixed_displacements(self.mesh, self.supports))
 
 
 def _check_contacts(problem: Problem) -> None:

@@ -10,7 +10,8 @@ import numpy as np
 
 from solver.arrays import Reals
 from solver.assembly import Assembly, Equilibrium
-from solver.constraints import fixed_displacements
+from solver.checkpoint import Checkpoint
+from solver.constraints import given_displacements
 from solver.linear import LinearSolver, SingularMatrix, linear_solver, quick_solver
 from solver.models import Problem
 from solver.motion import motion_along, rotation
@@ -70,7 +71,7 @@ class Event:
     ``kind``: ``iteration`` after each correction, ``step`` after each load step reached,
     ``refused`` after each load step given up. ``load`` is the fraction of the asked pressure
     being tried, ``rotation`` (degrees) that of the ``tip`` so far, ``correction`` (mm) the largest
-    node's.
+    node's. A step reached on the way from zero carries a ``checkpoint`` to go on from.
     """
 
     kind: Literal["iteration", "step", "refused"]
@@ -78,9 +79,13 @@ class Event:
     rotation: float
     iteration: int
     correction: float
+    checkpoint: Checkpoint | None = None
 
 
 Listener = Callable[[Event], None]
+
+DIFFERENCE = 1e-6
+"""Fraction of the load between the two residuals of a difference quotient."""
 
 DIVERGED = 1.0
 """A correction of so many body diagonals corrects nothing."""
@@ -90,13 +95,13 @@ DIVERGED = 1.0
 class Attempt:
     """Newton's outcome at one load: a state in equilibrium, or why there is none.
 
-    ``force``: the residual's derivative with respect to the pressure there, mm^2.
+    ``rate``: the residual's derivative with respect to the load there, N (see ``Newton.rate``).
     """
 
     state: State
     iterations: int
     failure: str = ""
-    force: Reals = field(default_factory=lambda: np.zeros(0))
+    rate: Reals = field(default_factory=lambda: np.zeros(0))
 
 
 @dataclass
@@ -111,7 +116,7 @@ class Effort:
 
 @dataclass
 class Newton:
-    """Newton's method on one problem at fractions (``load``) of one ``pressure``.
+    """Newton's method on one problem at fractions (``load``) of its loads and one ``pressure``.
 
     Holds what is computed once per mesh and the factorization at hand.
     """
@@ -130,7 +135,8 @@ class Newton:
         self.touched = False
         self.move = motion_along(self.problem.mesh, self.problem.axis)
         self.trusted = trusted_nodes(self.problem)
-        self.held = fixed_displacements(self.problem.mesh, self.problem.supports)
+        self.held = ~np.isnan(self.given(1.0))
+        self.linearised, self.linearised_load = State.zero(self.problem), 0.0
 
     def correct(self, guess: State, load: float, tolerance: float) -> Attempt:
         """Equilibrium at a fixed load from ``guess``; where walls touch, at worst in two stages."""
@@ -153,13 +159,15 @@ class Newton:
         self.touched, iteration = False, 0
         while iteration < self.options.maximum_iterations * (2 if self.touched else 1):
             iteration += 1
-            equilibrium = self.assembly.evaluate(state, load * self.pressure, tangent=not reuse)
+            equilibrium = self.evaluate(state, load, tangent=not reuse)
             if not equilibrium.admissible:
                 return Attempt(guess, iteration, "an element would turn inside out")
             try:
-                increment = self.increment(equilibrium, reuse)
+                if not reuse:
+                    self.factorize(equilibrium, state, load)
             except SingularMatrix as error:
                 return Attempt(guess, iteration, f"the tangent is singular ({error})")
+            increment = self.solve(-equilibrium.residual)
             correction = float(np.abs(self.linear(state, increment)).max())
             if not correction < DIVERGED * size:
                 return Attempt(guess, iteration, "the Newton corrections grew without bound")
@@ -175,49 +183,84 @@ class Newton:
             previous, reuse = correction, correction < self.options.reuse * previous
         return Attempt(guess, iteration, f"Newton did not converge in {iteration} iterations")
 
-    def increment(self, equilibrium: Equilibrium, reuse: bool) -> State:
-        """Newton's increment, by a new factorization or by the one at hand."""
-        if not reuse:
-            self.factorize(equilibrium)
-        return self.solve(-equilibrium.residual)
-
     def verified(self, state: State, load: float, iterations: int, guess: State) -> Attempt:
         """Accept a converged state only if it is stable and no element is turned inside out.
 
         Stable means that the tangent has one negative pivot for each pressure unknown and no
         more: the equilibrium is a minimum of energy among all incompressible neighbours.
         """
-        if self.matrix.negative_pivots not in (None, len(self.problem.mesh.vertices)):
+        if self.stable is False:
             return Attempt(guess, iterations, "the equilibrium would be unstable")
-        equilibrium = self.assembly.evaluate(state, load * self.pressure, tangent=False)
+        equilibrium = self.evaluate(state, load, tangent=False)
         if equilibrium.admissible:
-            return Attempt(state, iterations, force=equilibrium.force)
+            return Attempt(state, iterations, rate=self.rate(state, load, equilibrium))
         return Attempt(guess, iterations, "an element would turn inside out")
 
-    def direction(self, force: Reals) -> State:
-        """Derivative of the equilibrium with respect to the load, by the factorization at hand.
+    @property
+    def unstable_modes(self) -> int | None:
+        """In how many ways the last factorized tangent gives way; None if unknown.
 
-        ``force``: the residual's derivative with respect to the pressure, mm^2.
+        Negative eigenvalues beyond one for each pressure. Where only their parity is known, a
+        wrong one counts as one, and a right one as unknown.
         """
-        return self.solve(-self.pressure * force)
+        pressures, negative = len(self.problem.mesh.vertices), self.matrix.negative_pivots
+        if negative is not None:
+            return abs(negative - pressures)
+        odd = self.matrix.odd_negative
+        return None if odd is None or odd == (pressures % 2 == 1) else 1
+
+    @property
+    def stable(self) -> bool | None:
+        """Whether the last factorized tangent is that of a stable state; None if unknown."""
+        return None if self.unstable_modes is None else self.unstable_modes == 0
+
+    def evaluate(self, state: State, load: float, tangent: bool = True) -> Equilibrium:
+        """Residual and tangent at a state under a fraction of the load."""
+        return self.assembly.evaluate(state, load * self.pressure, tangent, load)
+
+    def rate(self, state: State, load: float, equilibrium: Equilibrium) -> Reals:
+        """Derivative of the residual (m,) with respect to the load, the unknowns held: N.
+
+        What prescribed motions add comes by a difference quotient: only predictors use it.
+        """
+        rate: Reals = self.pressure * equilibrium.force - self.assembly.dead_force
+        if not self.problem.supports.prescribed:
+            return rate
+        step = DIFFERENCE if load < 0.5 else -DIFFERENCE
+        moved = self.evaluate(self.placed(state, load + step), load, tangent=False)
+        return rate + (moved.residual - equilibrium.residual) / step
+
+    def direction(self, rate: Reals) -> State:
+        """Derivative of the equilibrium with respect to the load, by the factorization at hand."""
+        return self.solve(-rate)
 
     def sharpen(self) -> None:
         """Go on in double precision, if single precision was this solver's own choice."""
-        if self.options.linear_solver == "auto" and self.matrix.name == "pardiso-single":
+        if self.options.linear_solver == "auto" and not self.sharp:
             self.matrix = linear_solver("pardiso")
             self.matrix.analyze(self.analyzed)
 
-    def factorize(self, equilibrium: Equilibrium) -> None:
-        """Factorize a tangent and count it; contact may have changed its pattern."""
+    @property
+    def sharp(self) -> bool:
+        """Whether factorizations are in double precision."""
+        return self.matrix.name != "pardiso-single"
+
+    def factorize(self, equilibrium: Equilibrium, state: State, load: float) -> None:
+        """Factorize the tangent at a state and count it; contact may have changed its pattern."""
         if equilibrium.pattern is not self.analyzed:
             self.matrix.analyze(equilibrium.pattern)
             self.analyzed = equilibrium.pattern
         self.matrix.factorize(equilibrium.tangent)
+        self.linearised, self.linearised_load = state, load
         self.effort.factorizations += 1
 
     def solve(self, right_hand_side: Reals) -> State:
         """Solve with the factorization at hand."""
-        return State(*self.assembly.numbering.expand(self.matrix.solve(right_hand_side)))
+        return self.expanded(self.matrix.solve(right_hand_side))
+
+    def expanded(self, vector: Reals) -> State:
+        """A vector over the unknowns (m,) as an increment of the state."""
+        return State(*self.assembly.numbering.expand(vector))
 
     def linear(self, state: State, increment: State) -> Reals:
         """Displacement (n, 3) of an increment to first order, mm."""
@@ -227,16 +270,29 @@ class Newton:
     def advance(self, state: State, increment: State, fraction: float = 1.0) -> State:
         """The state after a fraction of an increment, applied as a finite motion."""
         step = increment.scaled(fraction)
-        moved = self.supported(
-            self.move(state.displacement, self.linear(state, step)),
+        moved = self.move(state.displacement, self.linear(state, step))
+        kept = State(
+            np.where(self.held, state.displacement, moved),
             state.hydrostatic_pressure + step.hydrostatic_pressure,
         )
         plane = self.assembly.plane
-        return moved if plane is None else plane.finite(state, step, moved)
+        return kept if plane is None else plane.finite(state, step, kept)
 
-    def supported(self, displacement: Reals, pressure: Reals) -> State:
-        """A state with the prescribed displacements put back to zero."""
-        return State(np.where(self.held, 0.0, displacement), pressure)
+    def predicted(self, state: State, direction: State, load: float, target: float) -> State:
+        """The state at ``target`` by the direction at ``load``, with the supports in place."""
+        guess = self.advance(state, direction, target - load)
+        return self.placed(guess, target) if self.problem.supports.prescribed else guess
+
+    def placed(self, state: State, load: float) -> State:
+        """A state with what is held or led put where it is at a fraction of the load."""
+        given = self.given(load)
+        displacement = np.where(np.isnan(given), state.displacement, given)
+        return State(displacement, state.hydrostatic_pressure, state.plane)
+
+    def given(self, load: float) -> Reals:
+        """Given displacements (n, 3) at a fraction of the load, NaN where free, mm."""
+        problem = self.problem
+        return given_displacements(problem.mesh, problem.supports, load, problem.moving_plane)
 
     def turned(self, state: State) -> float:
         """Rotation of the tip, or of the moving plane, degrees."""
@@ -244,12 +300,14 @@ class Newton:
             return float(np.degrees(state.plane[0]))
         return rotation(self.problem.mesh, state.displacement)
 
-    def point(self, state: State, load: float, iterations: int) -> PathPoint:
+    def point(self, state: State, load: float, iterations: int, stable: bool | None) -> PathPoint:
         """Describe an equilibrium."""
         stress = von_mises(deviatoric_at_nodes(self.problem, state.displacement))
         highest = float(stress[self.trusted].max(initial=0.0))
         volume = enclosed_volume(self.problem.mesh, state.displacement, self.problem.pressurised)
-        return PathPoint(load * self.pressure, self.turned(state), iterations, highest, volume)
+        return PathPoint(
+            load * self.pressure, self.turned(state), iterations, highest, volume, load, stable
+        )
 
     def notify(
         self,
@@ -258,7 +316,9 @@ class Newton:
         state: State,
         iteration: int,
         correction: float,
+        checkpoint: Checkpoint | None = None,
     ) -> None:
         """Tell the listener."""
         if self.listener is not None:
-            self.listener(Event(kind, load, self.turned(state), iteration, correction))
+            turned = self.turned(state)
+            self.listener(Event(kind, load, turned, iteration, correction, checkpoint))

@@ -47,6 +47,12 @@ class Skin(NamedTuple):
     entries: Integers
 
 
+def skin(mesh: Mesh, triangles: Integers, dofs: Integers, entries: Integers) -> Skin:
+    """Triangles (k, 6) of a mesh with the places of their unknowns."""
+    rule = triangle_rule()
+    return Skin(mesh.nodes, triangles, rule.quadratic, rule.gradients, rule.weights, dofs, entries)
+
+
 @njit(cache=True, error_model="numpy")
 def triangle_response(skin: Skin, x: Reals, tangent: bool, f: Reals, k: Reals) -> None:
     """Force f (18,) = integral of N_a n da and the upper half of its symmetric tangent k (18, 18).

@@ -22,7 +22,8 @@ class PathPoint:
     ``pressure`` (MPa), ``rotation`` of the moving plane or else of the surface ``tip`` about y
     (degrees, positive towards -z, past 360; NaN without either), Newton ``iterations`` spent on
     the step, largest nodal von Mises stress (MPa), ``volume`` inside the pressurised surfaces
-    (mm^3, see ``solver.pressure.enclosed_volume``).
+    (mm^3, see ``solver.pressure.enclosed_volume``), the fraction of the whole ``load``, whether it
+    is ``stable`` while the load is held (None where the linear solver cannot tell).
     """
 
     pressure: float
@@ -30,6 +31,8 @@ class PathPoint:
     iterations: int
     max_von_mises: float
     volume: float
+    load: float = 1.0
+    stable: bool | None = None
 
 
 @dataclass(frozen=True)
@@ -39,7 +42,9 @@ class Solution:
     ``pressure`` is the applied pressure it belongs to (MPa), ``displacement`` (n, 3) in mm,
     ``hydrostatic_pressure`` (v,) in MPa at ``mesh.vertices``, positive in compression.
     ``message`` says in one sentence how far the load came and why it stopped there.
-    ``plane``: tilt (rad) and shift (mm) of the moving plane, zeros without one.
+    ``plane``: tilt (rad) and shift (mm) of the moving plane, zeros without one. ``load``: the
+    fraction of the whole load it belongs to. ``limit``: the pressure (MPa; the fraction of the load
+    where there is no pressure) of the limit point that ended the way, None if there was none.
     ``refused_steps`` load steps were cut back. ``negative_pivots`` of the last tangent that was
     factorized equals v where the state is stable; None if the linear solver cannot tell.
     """
@@ -59,6 +64,13 @@ class Solution:
     negative_pivots: int | None
     seconds: float
     plane: tuple[float, float] = (0.0, 0.0)
+    load: float = 1.0
+    limit: float | None = None
+
+    @property
+    def stable(self) -> bool | None:
+        """Whether the state is stable while the load is held; None if that is unknown."""
+        return self.path[-1].stable
 
     @property
     def state(self) -> State:

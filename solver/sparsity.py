@@ -85,6 +85,21 @@ def multiply_symmetric(
         product[row] += total
 
 
+@njit(cache=True)
+def is_odd(permutation: Integers) -> bool:
+    """Whether a permutation (n,) is made of an odd number of swaps."""
+    seen = np.zeros(len(permutation), np.bool_)
+    cycles = 0
+    for first in range(len(permutation)):
+        if not seen[first]:
+            cycles += 1
+            place = first
+            while not seen[place]:
+                seen[place] = True
+                place = permutation[place]
+    return (len(permutation) - cycles) % 2 == 1
+
+
 def chunks(
     mesh: Mesh, elements: NDArray[np.int64] | None = None
 ) -> tuple[Integers, Integers, Integers]:

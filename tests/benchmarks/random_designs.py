@@ -3,8 +3,8 @@
     python tests/benchmarks/random_designs.py [count [results.json]]
 
 Numbers are drawn around the paper's with a fixed seed; draws that are refused as no solid do not
-count. Prints a table of those that did not converge at the first try, then the distribution of
-seconds, estimated errors and factorizations.
+count. Prints those that did not converge, then how many did and the distributions of seconds,
+factorizations and estimated errors, as Markdown.
 """
 
 from __future__ import annotations
@@ -18,6 +18,8 @@ import numpy as np
 
 from bellows_design.design import Design, load_design
 from bellows_design.evaluation import Evaluation, evaluate
+from solver import Solution
+from solver.assembly import Assembly
 
 SEED = 20261122
 RANGES = {
@@ -72,14 +74,14 @@ def result(design: Design) -> dict[str, Any]:
 
 def _found(evaluation: Evaluation) -> dict[str, Any]:
     content = evaluation.to_dict()
-    stable = all(
-        s.negative_pivots in (None, len(s.problem.mesh.vertices)) for s in evaluation.solutions
-    )
     return {
         "converged": evaluation.converged,
         "reason": "" if evaluation.converged else evaluation.message,
-        "first_try": all(s.refused_steps == 0 for s in evaluation.solutions),
-        "right_inertia": stable,
+        "straight": all(s.refused_steps == 0 for s in evaluation.solutions),
+        "right_inertia": all(
+            s.negative_pivots in (None, len(s.problem.mesh.vertices)) for s in evaluation.solutions
+        ),
+        "residual": imbalance(evaluation.finest),
         "angle": content["bending_angle_deg"],
         "stress": content["max_von_mises_mpa"],
         "contact": content["contact"]["detected"],
@@ -88,6 +90,13 @@ def _found(evaluation: Evaluation) -> dict[str, Any]:
         "elements": content["mesh"]["elements"],
         "seconds": content["seconds"]["total"],
     }
+
+
+def imbalance(solution: Solution) -> float:
+    """What is left of the forces in a solution, relative to those of the pressure."""
+    there = Assembly(solution.problem).evaluate(solution.state, solution.pressure, tangent=False)
+    pushed = np.linalg.norm(solution.pressure * there.force)
+    return float(np.linalg.norm(there.residual) / pushed)
 
 
 def main(count: str = "200", target: str | None = None) -> None:
@@ -100,14 +109,43 @@ def main(count: str = "200", target: str | None = None) -> None:
             print(design.name, row["p"], row["reason"], row["design"], flush=True)
         if target is not None:
             Path(target).write_text(json.dumps(rows, indent=1) + "\n", encoding="utf-8")
+    print(table(rows))
+
+
+def table(rows: list[dict[str, Any]]) -> str:
+    """Shares, then distributions, as Markdown."""
     good = [row for row in rows if row["converged"]]
-    print(
-        f"{len(good)} of {len(rows)} converged; inertia right in all of them: "
-        f"{all(row['right_inertia'] for row in good)}"
-    )
-    for key in ("seconds", "factorizations", "elements"):
-        low, middle, high = np.percentile([row[key] for row in good], (10, 50, 90))
-        print(f"{key}: {low:.3g} / {middle:.3g} / {high:.3g} (10, 50, 90 %)")
+    lines = [f"| of {len(rows)} designs, seed {SEED} | |", "|---|---|"]
+    counts = {
+        "converged at the default settings": len(good),
+        "without a single refused load step": sum(row["straight"] for row in good),
+        "of those that did not converge, ended with a reason": sum(
+            bool(row["reason"]) for row in rows if not row["converged"]
+        ),
+        "reported a state of wrong inertia": sum(not row["right_inertia"] for row in good),
+        "touching walls": sum(row["contact"] for row in good),
+    }
+    lines += [f"| {name} | {number} |" for name, number in counts.items()]
+    lines += [f"| largest relative residual | {max(row['residual'] for row in good):.1e} |"]
+    lines += ["", "| | 10 % | 50 % | 90 % | 100 % |", "|---|---|---|---|---|"]
+    distributions = {
+        "seconds": [row["seconds"] for row in good],
+        "factorizations": [row["factorizations"] for row in good],
+        "tetrahedra": [row["elements"] for row in good],
+        "angle, °": [row["angle"] for row in good],
+        "stress, MPa": [row["stress"] for row in good],
+        "estimated error of the angle, %": _estimates(good, "bending_angle_percent"),
+        "estimated error of the stress, %": _estimates(good, "max_von_mises_percent"),
+    }
+    for name, values in distributions.items():
+        shares = " | ".join(f"{value:.3g}" for value in np.percentile(values, (10, 50, 90, 100)))
+        lines.append(f"| {name} | {shares} |")
+    return "\n".join(lines)
+
+
+def _estimates(rows: list[dict[str, Any]], key: str) -> list[float]:
+    found = [row["estimate"][key] for row in rows]
+    return [value for value in found if value is not None]
 
 
 if __name__ == "__main__":

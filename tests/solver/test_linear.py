@@ -78,3 +78,18 @@ def test_many_factorizations_live_side_by_side(box: Callable[..., Mesh], ninjafl
     first = solvers[0].solve(rhs)
     del solvers[1]
     assert solvers[-1].solve(rhs) == pytest.approx(first / 3, rel=1e-9)
+
+
+@pytest.mark.parametrize("name", ["pardiso", "superlu"])
+def test_either_solver_knows_whether_the_number_of_negative_eigenvalues_is_odd(
+    box: Callable[..., Mesh], ninjaflex: Ogden, name: str
+) -> None:
+    solver = pardiso() if name == "pardiso" else linear_solver(name)
+    assembly, values = elastic(box, ninjaflex)
+    solver.analyze(assembly.pattern)
+    diagonal = assembly.pattern.indptr[:-1]
+    for row in range(0, 40, 7):  # push one eigenvalue after the other below zero
+        values[diagonal[row]] = -50.0
+        solver.factorize(values)
+        negative = (np.linalg.eigvalsh(whole(assembly, values)) < 0).sum()
+        assert solver.odd_negative is bool(negative % 2)

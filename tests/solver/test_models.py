@@ -108,3 +108,19 @@ def test_pressure_must_be_a_number(box: BoxMesh, ninjaflex: Ogden) -> None:
 def test_linear_solvers_have_names() -> None:
     with pytest.raises(ValueError, match=r"must be one of auto, .*superlu, got 'umfpack'"):
         linear_solver("umfpack")
+
+
+@pytest.mark.parametrize(
+    ("supports", "count", "named"),
+    [
+        (Supports(), 6, "translation along x, translation along y, translation along z, rotation"),
+        (Supports(symmetry={"x0": 0}), 3, "translation along y, translation along z, rotation ab"),
+        (Supports(symmetry={"x0": 0, "y0": 1}), 1, "translation along z"),
+        (Supports(symmetry={"x0": 0, "x1": 0, "z0": 2}), 1, "translation along y"),
+    ],
+)
+def test_rigid_motions_that_supports_leave_free_are_counted_and_named(
+    box: Callable[..., Mesh], ninjaflex: Ogden, supports: Supports, count: int, named: str
+) -> None:
+    with pytest.raises(ValueError, match=rf"in {count} ways? \({named}"):
+        Problem(box((1, 1, 1)), ninjaflex, supports, ())

@@ -40,7 +40,7 @@ def actuator(
     supports = Supports(clamped=("root",), symmetry={"symmetry": 1})
     middles = [0.0, *(2.0 + 1.4 * np.arange(2 * bubbles - 1)), mesh.nodes[:, 0].max()]
     stations = SlenderAxis(tuple(middles)) if axis else None
-    return Problem(mesh, material, supports, ("cavity",), stations)
+    return Problem(mesh, material, supports, ("cavity",), axis=stations)
 
 
 @pytest.mark.parametrize("stretch", ["0.9", "1.1", "1.25"])
