@@ -121,7 +121,7 @@ def _print_reasons(report: PrintabilityReport) -> tuple[Reason, ...]:
 
 def _load_reasons(design: Design, evaluation: Evaluated) -> tuple[Reason, ...]:
     required, reached = design.load.pressure, evaluation.pressure_mpa
-    if not evaluation.converged or not reached >= required * (1 - 1e-9):
+    if not evaluation.converged or not reached / required >= 1 - 1e-9:
         told = f": {evaluation.message}" if evaluation.message else "."
         message = f"The solver reached {reached:.4g} MPa of {required:g} MPa{told}"
         return (Reason("convergence", "pressure", reached, required, "MPa", message),)

@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Any, Self
 
 from pydantic import Field, ValidationError, field_validator, model_validator
+from pydantic_core import PydanticKnownError
 
 from bellows_design.errors import DesignError, did_you_mean, quoted, sentences
 from bellows_design.materials import Material, load_material, material_names
@@ -23,6 +24,12 @@ from bellows_design.parameters import BellowsParameters, Indent, Parameters, Por
 
 LARGEST_FILE = 1_000_000
 """Bytes. No design is longer; a larger file was named by mistake."""
+
+ATMOSPHERE = 0.101325
+"""MPa. The standard atmosphere: no vacuum pulls more."""
+
+LEAST_PRESSURE = 0.001
+"""MPa, of either sign."""
 
 MOST_DOTS = 100
 """In a line, outside of quoted text: reading a key takes time as the square of its parts."""
@@ -38,17 +45,26 @@ _LABELS = {"name": True, "description": True, "material": {"name", "source", "va
 class Load(Parameters):
     """What the actuator must carry.
 
-    The bounds are 10 mbar and the 6 bar of workshop air: wide for a soft actuator, yet narrow
-    enough that 0.1 MPa given in bar, kPa or Pa falls outside.
+    The bounds are the full vacuum and the 6 bar of workshop air, and 10 mbar of either: wide for a
+    soft actuator, yet narrow enough that 0.1 MPa given in bar, kPa or Pa falls outside.
     """
 
     pressure: float = Field(
         default=0.1,
-        ge=0.001,
+        ge=-ATMOSPHERE,
         le=0.6,
-        description="design pressure inside the chambers",
-        json_schema_extra={"unit": "MPa"},
+        description="design pressure inside the chambers over that outside, negative for a vacuum",
+        json_schema_extra={"unit": "MPa", "least": LEAST_PRESSURE},
     )
+
+    @field_validator("pressure")
+    @classmethod
+    def _is_a_load(cls, pressure: float) -> float:
+        if 0 <= pressure < LEAST_PRESSURE:
+            raise PydanticKnownError("greater_than_equal", {"ge": LEAST_PRESSURE})
+        if -LEAST_PRESSURE < pressure < 0:
+            raise PydanticKnownError("less_than_equal", {"le": -LEAST_PRESSURE})
+        return pressure
 
 
 class Limits(Parameters):

@@ -177,7 +177,9 @@ def _within(value: float, field: FieldInfo) -> bool:
         highest = getattr(rule, "le", None)
         if (lowest is not None and value < lowest) or (highest is not None and value > highest):
             return False
-    return value > 0
+    extra = field.json_schema_extra
+    least = extra.get("least") if isinstance(extra, dict) else None
+    return value >= least if isinstance(least, float) else value > 0
 
 
 def _told(field: FieldInfo | None, unit: str | None) -> str:

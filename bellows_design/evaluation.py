@@ -18,7 +18,7 @@ import numpy as np
 
 from bellows_design.budget import DEFAULT, Budget
 from bellows_design.design import Design
-from bellows_design.models import HALF, UNIT_CELL, Model, choose, shortened
+from bellows_design.models import FREE_CELL, HALF, UNIT_CELL, Model, choose, shortened
 from bellows_design.progress import Progress, Silence
 
 if TYPE_CHECKING:
@@ -126,7 +126,7 @@ class Evaluation:
     @property
     def pressure_mpa(self) -> float:
         """Pressure reached, MPa."""
-        return min(solution.pressure for solution in self._all)
+        return min((solution.pressure for solution in self._all), key=abs)
 
     @property
     def bending_angle_deg(self) -> float:
@@ -152,13 +152,14 @@ class Evaluation:
             count = self.design.bellows.bubble_count
             turned, more = self._added_by_ends(point)
             angle, volume = count * 2 * angle + turned, count * volume + more
-        return Reading(point.pressure, angle, point.max_von_mises, volume)
+        return Reading(point.pressure + 0.0, angle, point.max_von_mises, volume)  # never -0
 
     def _added_by_ends(self, point: PathPoint) -> tuple[float, float]:
-        """Rotation (°) and volume (mm³) by which a short actuator differs from its one bubble.
+        """Rotation (°) and volume (mm³) by which both ends differ from one bubble more.
 
-        Both come from meshes of the same size, so that the mesh's own error drops out. Exact at
-        the pressures asked for; between them in proportion to the cell's rotation.
+        They are a short actuator's, or a bubble's without neighbours (``_with_ends``). Cell and
+        ends have meshes of the same size, so that the mesh's own error drops out. Exact at the
+        pressures asked for; between them in proportion to the cell's rotation.
         """
         if self.ends is None:
             return 0.0, 0.0
@@ -166,10 +167,11 @@ class Evaluation:
         if not np.isclose(short.pressure, point.pressure):
             short, cell = self.ends.path[-1], self.solutions[0].path[-1]
         part = point.rotation / cell.rotation if short.pressure != point.pressure else 1.0
-        return (
-            part * (short.rotation - 2 * cell.rotation),
-            HALF.share * short.volume - UNIT_CELL.share * cell.volume,
-        )
+        if self.ends.problem.moving_plane is not None:  # a quarter of a bubble as well
+            turned, more = 2 * short.rotation, UNIT_CELL.share * short.volume
+        else:
+            turned, more = short.rotation, HALF.share * short.volume
+        return part * (turned - 2 * cell.rotation), more - UNIT_CELL.share * cell.volume
 
     @cached_property
     def peaks(self) -> tuple[Peak, ...]:
@@ -219,13 +221,12 @@ class Evaluation:
 
     @cached_property
     def contact(self) -> Contact:
-        """Whether bubbles touch, and how near they come."""
-        from bellows_design.chain import chain
-        from bellows_design.contact import contact_of
+        """Which walls touch, and how near they come."""
+        from bellows_design.contact import contact_in_cell, contact_of
 
         bellows, solution = self.design.bellows, self.finest
         if self.model is UNIT_CELL:
-            return contact_of(bellows, *chain(bellows, solution))
+            return contact_in_cell(bellows, solution)
         return contact_of(bellows, solution.problem.mesh, solution.displacement)
 
     @cached_property
@@ -284,7 +285,7 @@ def evaluate(
     progress: Progress = SILENCE,
     budget: Budget = DEFAULT,
 ) -> Evaluation:
-    """Evaluate ``design`` at its design pressure, and at the lower ``pressures`` (MPa).
+    """Evaluate ``design`` at its design pressure, and at ``pressures`` (MPa) between 0 and that.
 
     ``model`` is ``auto``, ``unit-cell``, ``half`` or ``full``. With ``accuracy_percent`` the mesh
     is refined until both error estimates keep it, or the next mesh would exceed the ``budget``: the
@@ -353,10 +354,20 @@ def refined(evaluation: Evaluation, progress: Progress = SILENCE) -> Evaluation:
 
 
 def _with_ends(evaluation: Evaluation, progress: Progress) -> Evaluation:
-    """With the solution of a short actuator, on the mesh size of the coarsest cell."""
+    """With the solution of a short actuator, on the mesh size of the coarsest cell.
+
+    Contact is not modelled in it. That is right outside, where its bubble has no neighbours; but
+    where inner walls touch, the cell without its neighbours stands for the ends, without the stubs
+    of root and tip.
+    """
     from bellows_design.analysis import first_plan
+    from bellows_design.contact import image_gap
+    from bellows_design.geometry import CAVITY
     from solver import SolverOptions
 
+    inner = image_gap(evaluation.finest, CAVITY)
+    if inner is not None and inner <= 0:
+        return _with_free_ends(evaluation, progress)
     progress.stage("ends: an actuator of one bubble")
     began = time.perf_counter()
     short = shortened(evaluation.design)
@@ -368,6 +379,18 @@ def _with_ends(evaluation: Evaluation, progress: Progress) -> Evaluation:
     problem = HALF.problem(short, mesh)
     ends = _solved(short, problem, progress, options, stops=evaluation.pressures)
     return _spent(replace(evaluation, ends=ends), built - began, meshed - built, meshed)
+
+
+def _with_free_ends(evaluation: Evaluation, progress: Progress) -> Evaluation:
+    """With the solution of a bubble without neighbours, on the coarsest cell's mesh."""
+    from solver import SolverOptions
+
+    progress.stage("ends: a bubble without neighbours")
+    began, design = time.perf_counter(), evaluation.design
+    problem = FREE_CELL.problem(design, evaluation.solutions[0].problem.mesh)
+    options = SolverOptions(tolerance=ROUGH)
+    ends = _solved(design, problem, progress, options, stops=evaluation.pressures)
+    return _spent(replace(evaluation, ends=ends), 0.0, 0.0, began)
 
 
 def _solved(
@@ -413,9 +436,9 @@ def _check(design: Design, accuracy_percent: float | None, pressures: Sequence[f
         raise ValueError(f"accuracy = {accuracy_percent:g} % must lie between 0.01 and 100 %.")
     highest = design.load.pressure
     for pressure in pressures:
-        if not 0 < pressure <= highest * (1 + 1e-12):
+        if not 0 < pressure / highest <= 1 + 1e-12:
             raise ValueError(
-                f"pressure = {pressure:g} MPa must lie above 0 and not above the design's "
+                f"pressure = {pressure:g} MPa must lie between 0, excluded, and the design's "
                 f"{highest:g} MPa."
             )
 

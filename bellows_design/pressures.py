@@ -1,4 +1,4 @@
-"""Pressures from the command line: one number, or START:STOP:STEP."""
+"""Pressures from the command line: one number, or START:STOP:STEP; negative ones are a vacuum."""
 
 from __future__ import annotations
 
@@ -11,9 +11,10 @@ MOST = 200
 
 
 def parse_pressures(text: str) -> tuple[float, ...]:
-    """Ascending pressures, MPa: ``0.1`` or ``0.02:0.1:0.02``, both ends included.
+    """Pressures away from zero, MPa: ``0.1``, ``0.02:0.1:0.02`` or ``-0.02:-0.08:-0.02``.
 
-    Raises ``DesignError`` unless the text is one of the two, with numbers above zero.
+    Both ends are included. Raises ``DesignError`` unless the text is one number or a range of
+    numbers with one sign.
     """
     parts = [_number(part, text) for part in text.split(":")]
     if len(parts) == 1:
@@ -21,13 +22,15 @@ def parse_pressures(text: str) -> tuple[float, ...]:
     if len(parts) != 3:
         raise DesignError(f"--pressure {quoted(text)} must be a number or START:STOP:STEP, in MPa.")
     start, stop, step = parts
-    return _range(start, stop, step, text)
+    sign = math.copysign(1.0, start)
+    return tuple(sign * size for size in _range(sign * start, sign * stop, sign * step, text))
 
 
 def _range(start: float, stop: float, step: float, text: str) -> tuple[float, ...]:
     if not (0 < start <= stop and step > 0):
         raise DesignError(
-            f"--pressure {quoted(text)} must rise from above 0 MPa: START <= STOP and STEP > 0."
+            f"--pressure {quoted(text)} must go away from 0 MPa: 0 < START <= STOP and STEP > 0, "
+            "or all three negative for a vacuum."
         )
     steps = (stop - start) / step
     if not steps < MOST:

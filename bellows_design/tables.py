@@ -257,7 +257,11 @@ def _place(position: Sequence[float] | None) -> str:
 
 
 def _contact(contact: Mapping[str, Any]) -> str:
-    if contact["detected"]:
-        return "bubbles touch: not modelled, the result does not hold past the touch"
-    gap = contact.get("min_gap_mm")
-    return "none" if gap is None else f"none, smallest gap {gap:.2f} mm"
+    """Which walls touch, the smallest gaps, and what that means."""
+    gaps = {"smallest gap": contact.get("min_gap_mm"), "inside": contact.get("inner_gap_mm")}
+    told = [f"{name} {gap:.2f} mm" for name, gap in gaps.items() if gap is not None]
+    touching = ", ".join(contact.get("where", ())) + " touch" if contact["detected"] else "none"
+    note = contact.get("note")
+    return ", ".join([touching, *([] if contact["detected"] else told)]) + (
+        f": {note}" if note else ""
+    )

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from solver.loads import BodyForce, Couple, PointForce, Traction
     from solver.materials import Ogden
     from solver.mesh import Mesh
-    from solver.models import Problem, SlenderAxis, Supports
+    from solver.models import Contact, Problem, SlenderAxis, Supports
     from solver.motion import rotation
     from solver.newton import Event, SolverOptions
     from solver.reactions import Reaction, reaction
@@ -36,7 +36,7 @@ _MODULES = {
     "loads": ("BodyForce", "Couple", "PointForce", "Traction"),
     "materials": ("Ogden",),
     "mesh": ("Mesh",),
-    "models": ("Problem", "SlenderAxis", "Supports"),
+    "models": ("Contact", "Problem", "SlenderAxis", "Supports"),
     "motion": ("rotation",),
     "newton": ("Event", "SolverOptions"),
     "reactions": ("Reaction", "reaction"),
@@ -47,6 +47,7 @@ _MODULES = {
 __all__ = [
     "BodyForce",
     "Checkpoint",
+    "Contact",
     "Couple",
     "Event",
     "Limit",

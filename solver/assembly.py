@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from solver import kernels
 from solver.arrays import Integers, Reals
 from solver.constraints import Numbering, number_unknowns
+from solver.contact import Touches
 from solver.elements import tetrahedron_rule
 from solver.loads import couple, nodal_forces
 from solver.mesh import Mesh
@@ -26,14 +27,16 @@ class Equilibrium:
 
     ``residual`` is internal minus external force (N) and constraint violation (mm^3); ``force``
     its derivative with respect to the applied pressure (mm^2); ``tangent`` the CSR values of its
-    derivative with respect to the unknowns, empty if not asked for. ``smallest_jacobian`` is the
-    least J of all quadrature points; the rest is meaningless unless it is positive.
+    derivative with respect to the unknowns, in ``pattern``, empty if not asked for.
+    ``smallest_jacobian`` is the least J of all quadrature points; the rest is meaningless unless it
+    is positive.
     """
 
     residual: Reals
     force: Reals
     tangent: Reals
     smallest_jacobian: float
+    pattern: Pattern
 
     @property
     def admissible(self) -> bool:
@@ -69,6 +72,7 @@ class Assembly:
         if self.plane is not None:
             self.dead_force[self.numbering.plane[0]] += couple(problem.loads)
         self._skin = self._pressurised_skin()
+        self.touches = Touches(problem, self.numbering, self.plane, self.pattern)
 
     def evaluate(
         self, state: State, pressure: float, tangent: bool = True, load: float = 0.0
@@ -96,13 +100,13 @@ class Assembly:
                 self._skin, heights, state.plane[0], displacement, pressure, tangent, force, values
             )
         residual += pressure * force - load * self.dead_force
-        return Equilibrium(residual, force, values, float(jacobians.min(initial=np.inf)))
+        values, pattern = self.touches.add(state, tangent, residual, values)
+        return Equilibrium(residual, force, values, float(jacobians.min(initial=np.inf)), pattern)
 
     def energy(self, state: State) -> float:
-        """Pi of the solid alone, N mm: its gradient is the residual at zero pressure."""
-        return float(
-            kernels.total_energy(self._solid, state.displacement, state.hydrostatic_pressure)[0]
-        )
+        """Pi of the solid and its contacts, N mm: its gradient is the residual at zero pressure."""
+        solid = kernels.total_energy(self._solid, state.displacement, state.hydrostatic_pressure)
+        return float(solid[0]) + self.touches.energy(state)
 
     def _with_plane(self, dofs: Integers) -> Integers:
         """The dofs (e, m) of cells with those of the moving plane at the end, (e, m + 2)."""

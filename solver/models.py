@@ -68,6 +68,31 @@ class SlenderAxis:
 
 
 @dataclass(frozen=True)
+class Contact:
+    """``surface`` may not cross a plane, behind which the body's mirror image stands.
+
+    The plane is normal to ``axis`` (0, 1, 2) at ``position`` (mm), or the problem's moving plane if
+    ``axis`` is None. A contact pressure as high as the material's shear modulus pushes the surface
+    through it by ``penetration`` (mm), others in proportion. Raises ``ValueError`` for other axes
+    and penetrations.
+    """
+
+    surface: str
+    penetration: float
+    axis: int | None = None
+    position: float = 0.0
+
+    def __post_init__(self) -> None:
+        if self.axis not in (None, 0, 1, 2):
+            raise ValueError(f"contacts: the plane's axis must be 0, 1 or 2, got {self.axis}.")
+        if not 0 < self.penetration < np.inf or not np.isfinite(self.position):
+            raise ValueError(
+                f"contacts: penetration = {self.penetration:g} mm must be above 0 and position = "
+                f"{self.position:g} mm finite."
+            )
+
+
+@dataclass(frozen=True)
 class Problem:
     """A hyperelastic solid under a follower pressure on the surfaces ``pressurised``.
 
@@ -77,6 +102,7 @@ class Problem:
     to shift along x: the section between two cells of a uniform chain, which goes on behind it.
     It carries what the pressure does to the cavity beyond (``solver.moving_plane``), and the
     ``Couple`` among the loads, the only load there may be besides.
+    ``contacts`` keep surfaces from crossing planes of symmetry (``solver.contact``).
     Stress nearer than ``sharp_edge_radius`` (mm) to an edge where the ideal body's has no finite
     value is left out of peaks (``solver.sharp_edges``).
     Raises ``ValueError`` when a surface is unknown, the moving one is not plane, or the supports
@@ -91,6 +117,7 @@ class Problem:
     axis: SlenderAxis | None = None
     moving_plane: str | None = None
     sharp_edge_radius: float = 0.0
+    contacts: tuple[Contact, ...] = ()
 
     def __post_init__(self) -> None:
         from solver.constraints import check_pressure, check_supports, fixed_displacements
@@ -100,6 +127,19 @@ class Problem:
         object.__setattr__(self, "loads", tuple(self.loads))
         self.mesh.triangles(*self.pressurised)
         check_loads(self.loads, self.moving_plane)
+        object.__setattr__(self, "contacts", tuple(self.contacts))
+        _check_contacts(self)
         check_supports(self.mesh, self.supports, self.moving_plane)
         if self.material.compliance == 0:
             check_pressure(self.mesh, fixed_displacements(self.mesh, self.supports))
+
+
+def _check_contacts(problem: Problem) -> None:
+    """Raise ``ValueError`` for contacts with unknown surfaces or with no moving plane."""
+    for contact in problem.contacts:
+        problem.mesh.triangles(contact.surface)
+        if contact.axis is None and problem.moving_plane is None:
+            raise ValueError(
+                f"contacts: the surface {contact.surface!r} needs an axis, as the problem has no "
+                "moving plane."
+            )

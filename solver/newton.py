@@ -135,6 +135,8 @@ class Newton:
         self.assembly = Assembly(self.problem)
         self.matrix: LinearSolver = quick_solver(self.options.linear_solver)
         self.matrix.analyze(self.assembly.pattern)
+        self.analyzed = self.assembly.pattern
+        self.touched = False
         self.move = motion_along(self.problem.mesh, self.problem.axis)
         self.trusted = trusted_nodes(self.problem)
         self.held = ~np.isnan(self.given(1.0))
@@ -143,14 +145,26 @@ class Newton:
         self.linearised, self.linearised_load = State.zero(self.problem), 0.0
 
     def correct(self, guess: State, load: float, tolerance: float) -> Attempt:
+        """Equilibrium at a fixed load from ``guess``; where walls touch, at worst in two stages."""
+        attempt = self.iterate(guess, load, tolerance)
+        if not attempt.failure or not self.touched:
+            return attempt
+        with self.assembly.touches.softened():
+            soft = self.iterate(guess, load, tolerance)
+        return attempt if soft.failure else self.iterate(soft.state, load, tolerance)
+
+    def iterate(self, guess: State, load: float, tolerance: float) -> Attempt:
         """Newton iterations at a fixed load from ``guess``, until a correction is small.
 
         A factorization serves as long as corrections shrink fast. The first correction after a
         predictor may be small by chance, with large ones to follow: a ``tolerance`` looser than
-        the options' counts only while corrections shrink.
+        the options' counts only while corrections shrink, and where walls touch none larger than
+        the contact's depth will do. Which points touch may take as many iterations again to settle.
         """
         state, previous, size, reuse = guess, 0.0, self.problem.mesh.size, False
-        for iteration in range(1, self.options.maximum_iterations + 1):
+        self.touched, iteration = False, 0
+        while iteration < self.options.maximum_iterations * (2 if self.touched else 1):
+            iteration += 1
             equilibrium = self.evaluate(state, load, tangent=not reuse)
             if not equilibrium.admissible:
                 return Attempt(guess, iteration, "an element would turn inside out")
@@ -167,7 +181,10 @@ class Newton:
             self.effort.iterations += 1
             self.notify("iteration", load, state, iteration, correction)
             contracting = correction < previous
-            if correction <= (tolerance if contracting else self.options.tolerance) * size:
+            allowed = (tolerance if contracting else self.options.tolerance) * size
+            depth = self.assembly.touches.depth(state)
+            self.touched |= bool(np.isfinite(depth))
+            if correction <= min(allowed, depth):
                 return self.verified(state, load, iteration, guess)
             previous, reuse = correction, correction < self.options.reuse * previous
         return Attempt(guess, iteration, f"Newton did not converge in {iteration} iterations")
@@ -227,7 +244,7 @@ class Newton:
         """Go on in double precision, if single precision was this solver's own choice."""
         if self.options.linear_solver == "auto" and not self.sharp:
             self.matrix = linear_solver("pardiso")
-            self.matrix.analyze(self.assembly.pattern)
+            self.matrix.analyze(self.analyzed)
 
     @property
     def sharp(self) -> bool:
@@ -235,7 +252,10 @@ class Newton:
         return self.matrix.name != "pardiso-single"
 
     def factorize(self, equilibrium: Equilibrium, state: State, load: float) -> None:
-        """Factorize the tangent at a state and count it."""
+        """Factorize the tangent at a state and count it; contact may have changed its pattern."""
+        if equilibrium.pattern is not self.analyzed:
+            self.matrix.analyze(equilibrium.pattern)
+            self.analyzed = equilibrium.pattern
         self.matrix.factorize(equilibrium.tangent)
         edge = self.problem.mesh.edge / self.problem.mesh.size
         self.loose_tolerance = min(self.options.loose_tolerance, EDGE_SHARE * edge)

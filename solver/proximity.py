@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -31,8 +32,12 @@ class Gaps:
     ends: Reals
 
 
-def facing_gaps(mesh: Mesh, displacement: Reals, *surfaces: str) -> Gaps:
+def facing_gaps(
+    mesh: Mesh, displacement: Reals, *surfaces: str, seen_from: Sequence[str] | None = None
+) -> Gaps:
     """Gaps of ``surfaces`` to each other after ``displacement`` (n, 3), seen from every facet.
+
+    ``seen_from``: those of the surfaces whose facets look out; without it all of them.
 
     Together the surfaces should close the body: a ray that slips in through a hole meets walls
     from within and passes for an overlap.
@@ -43,10 +48,15 @@ def facing_gaps(mesh: Mesh, displacement: Reals, *surfaces: str) -> Gaps:
     """
     import trimesh
 
-    facets = _flat_facets(mesh.triangles(*surfaces))
+    looking = surfaces if seen_from is None else tuple(seen_from)
+    others = tuple(name for name in surfaces if name not in looking)
+    outlook = _flat_facets(mesh.triangles(*looking))
+    facets = np.concatenate([outlook, _flat_facets(mesh.triangles(*others))])
     body = trimesh.Trimesh(mesh.nodes + displacement, facets, process=False)
     centres, normals = body.triangles_center, body.face_normals
-    rays, met, ahead = _first_met(body, centres, normals)
+    rays, met, ahead = _first_met(
+        body, centres, normals, only=np.arange(len(outlook), dtype=np.int32)
+    )
     cosine = np.einsum("ki,ki->k", normals[rays], normals[met])
     kept = np.abs(cosine) >= -OPPOSING
     rays, met, ahead, inside = rays[kept], met[kept], ahead[kept], cosine[kept] > 0
@@ -56,6 +66,14 @@ def facing_gaps(mesh: Mesh, displacement: Reals, *surfaces: str) -> Gaps:
     signed = np.where(inside, -np.minimum(ahead, behind[rays]), ahead)
     reference = mesh.nodes[facets].mean(axis=1)
     return Gaps(signed, reference[rays], reference[met])
+
+
+def facet_normals(mesh: Mesh, displacement: Reals, *surfaces: str) -> tuple[Reals, Reals]:
+    """Centres and outward unit normals (k, 3) of the flat facets of deformed surfaces."""
+    corners = (mesh.nodes + displacement)[_flat_facets(mesh.triangles(*surfaces))]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    return corners.mean(axis=1), normals
 
 
 def _first_met(

@@ -46,6 +46,21 @@ def upper_pattern(dofs: Integers, size: int) -> Pattern:
     return Pattern(indptr.astype(np.int32), indices)
 
 
+def widened(pattern: Pattern, dofs: Integers) -> tuple[Pattern, Integers]:
+    """A pattern that also couples the unknowns within cells (e, m), and the old entries' places."""
+    size = len(pattern.indptr) - 1
+    rows = np.repeat(np.arange(size), np.diff(pattern.indptr))
+    old = rows * size + pattern.indices
+    upper = np.triu_indices(dofs.shape[1])
+    one, other = (dofs[:, index].astype(np.int64).ravel() for index in upper)
+    first, last = np.minimum(one, other), np.maximum(one, other)
+    keys = np.union1d(old, (first * size + last)[first >= 0])
+    counts = np.bincount(keys // size, minlength=size)
+    indptr = np.concatenate([[0], np.cumsum(counts)]).astype(np.int32)
+    places = np.searchsorted(keys, old).astype(np.int32)
+    return Pattern(indptr, (keys % size).astype(np.int32)), places
+
+
 def incidence(table: Integers, size: int) -> tuple[Integers, Integers]:
     """Which rows of ``table`` name each number below ``size``, as CSR (pointer, rows)."""
     flat = table.ravel()

@@ -107,3 +107,12 @@ def test_all_reasons_are_named_together() -> None:
     assert [reason.kind for reason in verdict.reasons] == ["printability", "stress"]
     assert not verdict.undecided
     assert len(verdict.to_dict()["reasons"]) == 2
+
+
+def test_a_vacuum_is_reached_from_above() -> None:
+    """-0.03 MPa lies above the -0.05 MPa asked for, and yet is less of a load."""
+    vacuum = with_overrides(DESIGN, ["load.pressure=-0.05"])
+    reached, short = (replace(GOOD, pressure_mpa=pressure) for pressure in (-0.05, -0.03))
+    assert decide(vacuum, fake_report(), reached).approved
+    (reason,) = decide(vacuum, fake_report(), short).reasons
+    assert reason.kind == "convergence" and "-0.03 MPa of -0.05 MPa" in reason.message

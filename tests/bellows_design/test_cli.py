@@ -272,6 +272,38 @@ def test_without_a_pressure_the_designs_own_is_taken_and_the_model_chosen(
     assert asked == [(0.1, "auto", None, ()), (0.03, "auto", None, (0.03,))]
 
 
+@pytest.mark.parametrize(
+    ("arguments", "expected"),
+    [
+        (("--pressure", "-0.05"), (-0.05, (-0.05,))),
+        (("--pressure=-0.05",), (-0.05, (-0.05,))),
+        (("--pressure", "-0.02:-0.05:-0.02"), (-0.05, (-0.02, -0.04, -0.05))),
+        (("--set", "load.pressure=-0.03"), (-0.03, ())),
+    ],
+)
+def test_a_vacuum_is_a_negative_pressure_and_no_option(
+    bellows: Bellows,
+    monkeypatch: pytest.MonkeyPatch,
+    arguments: tuple[str, ...],
+    expected: tuple[object, ...],
+) -> None:
+    asked: list[tuple[object, ...]] = []
+
+    def evaluate(design: Design, *given: object) -> FakeEvaluation:
+        asked.append((design.load.pressure, given[2]))
+        return FakeEvaluation()
+
+    monkeypatch.setattr("bellows_design.evaluation.evaluate", evaluate)
+    assert bellows("evaluate", "prototype_1", *arguments)[0] == 0
+    assert asked == [expected]
+
+
+def test_a_vacuum_stronger_than_the_atmosphere_is_refused(bellows: Bellows) -> None:
+    status, _, error = bellows("evaluate", "prototype_1", "--pressure", "-0.2")
+    assert status == 2
+    assert "load.pressure is -0.2 MPa but must be at least -0.101325 MPa" in error
+
+
 def test_what_c_code_prints_stays_off_stdout(capfd: pytest.CaptureFixture[str]) -> None:
     with stdout_is_stderr():
         os.write(1, b"from C\n")

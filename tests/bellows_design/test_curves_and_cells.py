@@ -120,7 +120,9 @@ def test_without_pressures_there_is_no_curve(cell: Evaluation) -> None:
 
 @pytest.mark.parametrize("pressure", [0.0, -0.01, 0.0501, float("nan")])
 def test_a_pressure_above_the_designs_or_below_zero_is_refused(pressure: float) -> None:
-    with pytest.raises(ValueError, match=r"must lie above 0 and not above the design's 0\.05 MPa"):
+    with pytest.raises(
+        ValueError, match=r"must lie between 0, excluded, and the design's 0\.05 MPa"
+    ):
         evaluate(cheap(), pressures=(0.02, pressure))
 
 

@@ -126,7 +126,8 @@ def test_lengths_mistaken_by_a_factor_of_a_thousand_are_refused(field: str, fact
         ("100000", "100000 Pa would be 0.1 MPa"),
         ("0.0001", "0.0001 GPa would be 0.1 MPa"),
         ("0", "at least 0.001 MPa"),
-        ("-0.1", "at least 0.001 MPa"),
+        ("-0.0005", "at most -0.001 MPa"),
+        ("-0.2", "at least -0.101325 MPa"),
     ],
 )
 def test_a_pressure_in_another_unit_is_recognised(pressure: str, words: str) -> None:

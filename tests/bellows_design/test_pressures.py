@@ -20,15 +20,17 @@ from bellows_design.pressures import MOST, parse_pressures
         ("0.01:0.1:1", (0.01, 0.1)),
         ("0.1:0.3:0.1", (0.1, 0.2, 0.3)),  # 0.3 is not three times 0.1 in binary
         ("0.02:0.05:0.02", (0.02, 0.04, 0.05)),  # the end is always there
+        ("-0.05", (-0.05,)),
+        ("-0.02:-0.08:-0.02", (-0.02, -0.04, -0.06, -0.08)),
     ],
 )
-def test_a_number_or_a_range_gives_ascending_pressures(
+def test_a_number_or_a_range_gives_pressures_away_from_zero(
     text: str, pressures: tuple[float, ...]
 ) -> None:
     parsed = parse_pressures(text)
     assert parsed == pytest.approx(pressures, rel=1e-12)
     assert parsed[-1] == pressures[-1]  # exactly: the design is set to it
-    assert all(before < after for before, after in pairwise(parsed))
+    assert all(abs(before) < abs(after) for before, after in pairwise(parsed))
 
 
 def test_as_many_pressures_as_a_curve_needs() -> None:
@@ -43,11 +45,14 @@ def test_as_many_pressures_as_a_curve_needs() -> None:
         ("nan", "“nan” is no number"),
         ("inf", "“inf” is no number"),
         ("0.1:b:0.1", "“b” is no number"),
-        ("0:1:0.1", "must rise from above 0 MPa"),
-        ("-0.1:0.1:0.1", "must rise from above 0 MPa"),
+        ("0:1:0.1", "must go away from 0 MPa"),
+        ("-0.1:0.1:0.1", "must go away from 0 MPa"),
         ("0.1:0.02:0.01", "START <= STOP"),
         ("0.1:0.2:0", "STEP > 0"),
         ("0.1:0.2:-0.1", "STEP > 0"),
+        ("-0.02:-0.08:0.02", "all three negative"),
+        ("-0.08:-0.02:-0.02", "all three negative"),
+        ("-0.02:0.08:-0.02", "all three negative"),
         ("1:2", "must be a number or START:STOP:STEP"),
         ("1:2:3:4", "must be a number or START:STOP:STEP"),
         ("0.0001:1:0.0001", "at most 200"),
