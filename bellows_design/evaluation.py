@@ -115,7 +115,7 @@ class Evaluation:
     def stable(self) -> bool | None:
         """Whether the state found is stable under its pressure; None if that is unknown."""
         known = {solution.stable for solution in self._all}
-        return None if None in known else known == {True}
+        return False if False in known else None if None in known else True
 
     @property
     def limit_pressure_mpa(self) -> float | None:
