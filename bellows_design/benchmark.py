@@ -15,11 +15,12 @@ from typing import TYPE_CHECKING, Any
 
 from bellows_design.budget import DEFAULT, Budget
 from bellows_design.design import Design, load_design
-from bellows_design.evaluation import ErrorEstimate, Evaluation, refined, started
+from bellows_design.evaluation import refined, started
 from bellows_design.machine import machine, peak_memory_mib
 from bellows_design.models import HALF, UNIT_CELL, Model, choose
 from bellows_design.progress import Progress, Silence
 from bellows_design.reference import STORED, Reference, reference_of
+from bellows_design.result import ErrorEstimate, Evaluation
 
 if TYPE_CHECKING:
     from solver import Solution

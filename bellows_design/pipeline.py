@@ -13,7 +13,7 @@ from bellows_design.progress import Progress, Silence
 
 if TYPE_CHECKING:
     from bellows_design.approval import Verdict
-    from bellows_design.evaluation import Evaluation
+    from bellows_design.result import Evaluation
     from printers.report import PrintabilityReport
 
 SILENCE = Silence()

@@ -25,10 +25,11 @@ from bellows_design.benchmark import (
     fitted_exponent,
     observed_orders,
 )
-from bellows_design.evaluation import ErrorEstimate, evaluate
+from bellows_design.evaluation import evaluate
 from bellows_design.machine import machine
 from bellows_design.models import UNIT_CELL
 from bellows_design.reference import Reference
+from bellows_design.result import ErrorEstimate
 from bellows_design.tables import benchmark_tables
 
 Bellows = Callable[..., tuple[int, str, str]]

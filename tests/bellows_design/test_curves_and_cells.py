@@ -9,8 +9,9 @@ import pytest
 
 from bellows_design import load_design, with_overrides
 from bellows_design.design import Design
-from bellows_design.evaluation import Evaluation, Reading, evaluate
+from bellows_design.evaluation import evaluate
 from bellows_design.models import FULL, HALF, UNIT_CELL
+from bellows_design.result import Evaluation, Reading
 
 PRESSURES = (0.05, 0.02)
 CHEAP = (

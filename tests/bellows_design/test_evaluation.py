@@ -13,9 +13,10 @@ from bellows_design import DesignError, load_design, with_overrides
 from bellows_design.analysis import first_mesh
 from bellows_design.budget import Budget
 from bellows_design.design import Design
-from bellows_design.evaluation import Evaluation, evaluate, refined, write_vtu
+from bellows_design.evaluation import evaluate, refined, write_vtu
 from bellows_design.models import UNIT_CELL
 from bellows_design.paper import TABLE_4
+from bellows_design.result import Evaluation
 from solver import solve
 from solver.meshing_estimate import expected_memory
 

@@ -13,9 +13,9 @@ import sys
 from bellows_design.benchmark import evaluations
 from bellows_design.budget import Budget
 from bellows_design.design import load_design, shipped_designs
-from bellows_design.evaluation import Evaluation
 from bellows_design.models import HALF, UNIT_CELL
 from bellows_design.overrides import with_overrides
+from bellows_design.result import Evaluation
 
 AMPLE = Budget(memory=100.0, mesh_seconds=3600.0)
 EXTREME = {

@@ -17,7 +17,8 @@ from typing import Any
 import numpy as np
 
 from bellows_design.design import Design, load_design
-from bellows_design.evaluation import Evaluation, evaluate
+from bellows_design.evaluation import evaluate
+from bellows_design.result import Evaluation
 from solver import Solution
 from solver.assembly import Assembly
 

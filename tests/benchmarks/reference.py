@@ -25,9 +25,10 @@ from typing import Any
 from bellows_design import load_design
 from bellows_design.budget import Budget
 from bellows_design.design import Design
-from bellows_design.evaluation import Evaluation, evaluate, refined
+from bellows_design.evaluation import evaluate, refined
 from bellows_design.models import HALF
 from bellows_design.paper import TABLE_4
+from bellows_design.result import Evaluation
 from bellows_design.versions import versions
 
 CELL_ELEMENTS, HALF_ELEMENTS = 15_000, 80_000
