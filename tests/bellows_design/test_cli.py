@@ -41,7 +41,10 @@ def test_help_and_list_load_nothing_heavy() -> None:
     )
     for arguments in (["--help"], ["list"], ["list", "--json"], ["run", "--help"]):
         done = subprocess.run(
-            [sys.executable, "-c", code, *arguments], capture_output=True, text=True, cwd=ROOT
+            [sys.executable, "-c", code, *arguments],
+            capture_output=True,
+            encoding="utf-8",
+            cwd=ROOT,
         )
         assert done.returncode == 0, done.stderr
 
@@ -289,7 +292,7 @@ def test_a_vacuum_is_a_negative_pressure_and_no_option(
 ) -> None:
     asked: list[tuple[object, ...]] = []
 
-    def evaluate(design: Design, *given: object) -> FakeEvaluation:
+    def evaluate(design: Design, *given: object, budget: object) -> FakeEvaluation:
         asked.append((design.load.pressure, given[2]))
         return FakeEvaluation()
 

@@ -71,7 +71,7 @@ def struck(folder: Path, number: int, *arguments: str) -> tuple[int, str, str]:
         cwd=folder,
         env={**os.environ, "PYTHONPATH": str(ROOT)},
         capture_output=True,
-        text=True,
+        encoding="utf-8",
         timeout=60,
     )
     (folder / "data.csv").unlink()
@@ -119,7 +119,11 @@ def test_a_signal_before_the_command_is_even_loaded_is_one_sentence_too() -> Non
         "main()"
     )
     done = subprocess.run(
-        [sys.executable, "-c", code, "list"], cwd=ROOT, capture_output=True, text=True, timeout=60
+        [sys.executable, "-c", code, "list"],
+        cwd=ROOT,
+        capture_output=True,
+        encoding="utf-8",
+        timeout=60,
     )
     assert (done.returncode, done.stdout) == (130, "")
     assert done.stderr == "bellows: interrupted; nothing half-done was left behind.\n"
@@ -229,7 +233,7 @@ def _struck_at(
         env={**os.environ, "PYTHONPATH": str(ROOT), "TMPDIR": str(rooms)},
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
-        text=True,
+        encoding="utf-8",
     )
     if number is not None and moment is not None:
         time.sleep(moment)

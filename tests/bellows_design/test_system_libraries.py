@@ -104,7 +104,7 @@ def needed(elf: bytes) -> Iterator[str]:
 def installed_dependencies(packages: list[str]) -> set[str] | None:
     """Names of all packages that installed ones depend on; None if one is not installed."""
     query = subprocess.run(
-        ["dpkg-query", "-W", "-f", "${Depends},", *packages], capture_output=True, text=True
+        ["dpkg-query", "-W", "-f", "${Depends},", *packages], capture_output=True, encoding="utf-8"
     )
     if query.returncode:
         return None

@@ -143,7 +143,7 @@ def test_gmsh_dies_with_a_killed_program_even_in_the_midst_of_a_mesh(tmp_path: P
         [sys.executable, "-c", ORPHANS, str(rooms), str(tmp_path / "ball.brep")],
         cwd=ROOT,
         stdout=subprocess.PIPE,
-        text=True,
+        encoding="utf-8",
     )
     assert program.stdout is not None
     process = int(program.stdout.readline())
@@ -168,7 +168,9 @@ def test_nothing_is_left_in_the_home_folder_and_gmsh_stays_out_of_this_process(
     (tmp_path / "ball.brep").write_bytes(ball())
     environment = {**os.environ, "HOME": str(tmp_path / "home"), "TMPDIR": str(tmp_path / "home")}
     arguments = [sys.executable, "-c", code, str(tmp_path / "ball.brep")]
-    done = subprocess.run(arguments, cwd=ROOT, env=environment, capture_output=True, text=True)
+    done = subprocess.run(
+        arguments, cwd=ROOT, env=environment, capture_output=True, encoding="utf-8"
+    )
     assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
     assert list((tmp_path / "home").iterdir()) == []
 
