@@ -10,7 +10,18 @@ import pytest
 from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
-from solver import Contact, Mesh, Ogden, Problem, Solution, SolverOptions, Supports, solve
+from solver import (
+    Checkpoint,
+    Contact,
+    Event,
+    Mesh,
+    Ogden,
+    Problem,
+    Solution,
+    SolverOptions,
+    Supports,
+    solve,
+)
 from solver.assembly import Assembly
 from solver.contact import contact_law, image_gaps, lowest_gaps
 from solver.sparsity import Pattern
@@ -187,6 +198,27 @@ def test_opposite_walls_of_a_chamber_meet_in_a_vacuum_and_the_cell_stays_stable(
     assert held.path[-1].volume > bare.path[-1].volume + 1
     if held.negative_pivots is not None:
         assert held.negative_pivots == len(cell.vertices)
+
+
+def test_a_run_in_which_walls_touch_is_resumed_to_the_same_bits(
+    cell: Mesh, ninjaflex: Ogden
+) -> None:
+    problem = cell_problem(cell, ninjaflex, (Contact("cavity", 0.003, axis=0), NEIGHBOUR))
+    seen: list[Checkpoint] = []
+
+    def keep(event: Event) -> None:
+        if event.checkpoint is not None:
+            seen.append(event.checkpoint)
+
+    def touches(state: State) -> bool:
+        return min(lowest_gaps(problem, state.displacement, state.plane)) < 0
+
+    whole = solve(problem, -0.2, listener=keep)
+    assert whole.converged and touches(whole.state)
+    halfway = next(checkpoint for checkpoint in seen[:-1] if touches(checkpoint.reached))
+    again = solve(problem, -0.2, resume=halfway)
+    assert np.array_equal(again.displacement, whole.displacement)
+    assert again.path == whole.path
 
 
 def test_the_gap_to_an_image_is_twice_that_to_the_plane(cell: Mesh, ninjaflex: Ogden) -> None:
