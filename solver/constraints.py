@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from solver.arrays import Integers, Reals
 from solver.elements import tetrahedron_rule
 from solver.mesh import Mesh
+from solver.sparsity import connected_parts
 
 if TYPE_CHECKING:
     from solver.models import Supports
@@ -138,12 +139,18 @@ def check_supports(mesh: Mesh, supports: Supports, moving_plane: str | None = No
         _check_motion(mesh, supports, surface)
     if moving_plane is not None:
         _check_plane(mesh, supports, moving_plane)
-    loose = free_motions(mesh, fixed_displacements(mesh, supports, moving_plane))
-    if loose:
-        raise ValueError(
-            f"supports: they leave the body free to move in {len(loose)} "
-            f"way{'s' * (len(loose) > 1)} ({', '.join(loose)})."
-        )
+    fixed = fixed_displacements(mesh, supports, moving_plane)
+    parts = connected_parts(mesh.tets, len(mesh.nodes))
+    for number in range(parts.max() + 1):
+        nodes = np.flatnonzero(parts == number)
+        loose = free_motions(mesh.nodes[nodes], fixed[nodes])
+        if loose:
+            middle = ", ".join(f"{x:.4g}" for x in mesh.nodes[nodes].mean(axis=0))
+            which = f"part of the body around ({middle}) mm" if parts.max() else "body"
+            raise ValueError(
+                f"supports: they leave the {which} free to move in {len(loose)} "
+                f"way{'s' * (len(loose) > 1)} ({', '.join(loose)})."
+            )
 
 
 def check_pressure(mesh: Mesh, fixed: NDArray[np.bool_]) -> None:
@@ -161,21 +168,21 @@ def check_pressure(mesh: Mesh, fixed: NDArray[np.bool_]) -> None:
     parts = np.einsum("q,qad,eqdi->eai", rule.weights, rule.gradients, cofactors)
     derivative = np.zeros(mesh.nodes.shape)
     np.add.at(derivative, mesh.tets, parts)
-    if (np.abs(derivative) * ~fixed).max(initial=0.0) < LOOSE * np.abs(derivative).max(initial=1.0):
+    if (np.abs(derivative) * ~fixed).max() <= LOOSE * np.abs(derivative).max():
         raise ValueError(
             "supports: they prescribe the whole surface of an incompressible body, which leaves "
             "its pressure undetermined; free some of it or give the material a bulk modulus."
         )
 
 
-def free_motions(mesh: Mesh, fixed: NDArray[np.bool_]) -> tuple[str, ...]:
-    """Names of independent rigid motions that the ``fixed`` displacements (n, 3) do not hinder.
+def free_motions(nodes: Reals, fixed: NDArray[np.bool_]) -> tuple[str, ...]:
+    """Names of independent rigid motions of nodes (k, 3) that ``fixed`` (k, 3) does not hinder.
 
     The rotations are those about axes through the middle of the body; a body that may turn about
     one point elsewhere is free in as many ways.
     """
     node, axis = np.nonzero(fixed)
-    positions = (mesh.nodes - mesh.nodes.mean(axis=0)) / mesh.size
+    positions = (nodes - nodes.mean(axis=0)) / np.linalg.norm(np.ptp(nodes, axis=0))
     rotations = [np.cross(about, positions) for about in np.eye(3)]
     motions = np.stack([*np.broadcast_to(np.eye(3)[:, None], (3, *positions.shape)), *rotations])
     held = motions[:, node, axis]  # (6, number of held displacements)

@@ -76,6 +76,11 @@ def trace(
     """
     if not np.isfinite(pressure):
         raise ValueError(f"pressure must be a finite number of MPa, got {pressure}.")
+    if not (0 < longest_step < np.inf and steps >= 1):
+        raise ValueError(
+            f"trace: longest_step = {longest_step} must be a number above 0 and steps = {steps} "
+            "at least 1."
+        )
     newton = Newton(problem, float(pressure), options or SolverOptions(), listener)
     newton.sharpen()
     walker = Walker.of(newton, longest_step)

@@ -152,6 +152,8 @@ def _stopped(newton: Newton, leg: Leg, path: tuple[PathPoint, ...]) -> Walk:
 
     last = newton.correct(leg.reached.state, leg.load, newton.options.tolerance)
     state = leg.reached.state if last.failure else last.state
+    if not last.failure and path[-1].load == leg.load:
+        path = (*path[:-1], newton.point(state, leg.load, path[-1].iterations, newton.stable))
     limit = limit_ahead(newton, state, leg.load, STEPS_TO_A_LIMIT)
     if limit is None or not -1e-6 <= limit.point.load - leg.load <= NEAR * leg.load:
         return Walk(state, path, leg.failure)
@@ -260,6 +262,8 @@ def _check_shapes(newton: Newton, displacement: Reals, pressure: Reals) -> None:
             raise ValueError(
                 f"initial: {name} must have the shape {wanted.shape}, got {np.shape(given)}."
             )
+        if not np.isfinite(given).all():
+            raise ValueError(f"initial: {name} must be finite numbers, found NaN or infinity.")
 
 
 def solution_of(newton: Newton, walk: Walk, seconds: float) -> Solution:

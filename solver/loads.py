@@ -76,6 +76,11 @@ def check_loads(loads: Sequence[Load], moving_plane: str | None) -> None:
         raise ValueError("loads: a cell with a moving plane takes pressure only, besides couples.")
 
 
+def loaded_surfaces(loads: Sequence[Load]) -> tuple[str, ...]:
+    """Names of the surfaces with tractions."""
+    return tuple(load.surface for load in loads if isinstance(load, Traction))
+
+
 def couple(loads: Sequence[Load]) -> float:
     """Sum of the couples on the moving plane, N mm; ``ValueError`` if it is not finite."""
     moment = math.fsum(load.moment for load in loads if isinstance(load, Couple))
@@ -108,15 +113,17 @@ def _integrated(mesh: Mesh, cells: Integers, rule: Rule, sizes: Reals, field: Fi
 
 
 def _on_node(mesh: Mesh, load: PointForce) -> Reals:
-    distances = np.linalg.norm(mesh.nodes - _values(load.position, np.zeros((1, 3))), axis=1)
-    node = int(distances.argmin())
-    if distances[node] > 1e-6 * mesh.size:
+    nodes = np.unique(mesh.tets)
+    away = mesh.nodes[nodes] - _values(load.position, np.zeros((1, 3)))
+    distances = np.linalg.norm(away, axis=1)
+    nearest = int(distances.argmin())
+    if distances[nearest] > 1e-6 * mesh.size:
         raise ValueError(
             f"point force: no node lies at {load.position} mm; the nearest is "
-            f"{distances[node]:.3g} mm away."
+            f"{distances[nearest]:.3g} mm away."
         )
     forces = np.zeros(mesh.nodes.shape)
-    forces[node] = _values(load.force, np.zeros((1, 3)))[0]
+    forces[nodes[nearest]] = _values(load.force, np.zeros((1, 3)))[0]
     return forces
 
 

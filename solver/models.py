@@ -60,7 +60,8 @@ class SlenderAxis:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "stations", tuple(float(x) for x in self.stations))
-        if len(self.stations) < 2 or not (np.diff(self.stations) > 0).all():
+        finite = bool(np.isfinite(self.stations).all())
+        if len(self.stations) < 2 or not finite or not (np.diff(self.stations) > 0).all():
             raise ValueError(
                 "axis: stations must be at least two positions in mm in ascending order, "
                 f"got {self.stations}."
@@ -121,12 +122,17 @@ class Problem:
 
     def __post_init__(self) -> None:
         from solver.constraints import check_pressure, check_supports, fixed_displacements
-        from solver.loads import check_loads
+        from solver.loads import check_loads, loaded_surfaces
+        from solver.soundness import check_mesh
 
         object.__setattr__(self, "pressurised", tuple(self.pressurised))
         object.__setattr__(self, "loads", tuple(self.loads))
-        self.mesh.triangles(*self.pressurised)
         check_loads(self.loads, self.moving_plane)
+        check_mesh(self.mesh, self.pressurised, loaded_surfaces(self.loads))
+        if not 0 <= self.sharp_edge_radius < np.inf:
+            raise ValueError(
+                f"sharp_edge_radius = {self.sharp_edge_radius} mm must be a number of at least 0."
+            )
         object.__setattr__(self, "contacts", tuple(self.contacts))
         _check_contacts(self)
         check_supports(self.mesh, self.supports, self.moving_plane)

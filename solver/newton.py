@@ -11,12 +11,13 @@ import numpy as np
 from solver.arrays import Reals
 from solver.assembly import Assembly, Equilibrium
 from solver.checkpoint import Checkpoint
-from solver.constraints import given_displacements
-from solver.linear import LinearSolver, SingularMatrix, linear_solver, quick_solver
+from solver.constraints import fixed_displacements, given_displacements
+from solver.linear import SingularMatrix, linear_solver, quick_solver
 from solver.models import Problem
 from solver.motion import motion_along, rotation
 from solver.pressure import enclosed_volume
 from solver.results import PathPoint
+from solver.scaling import factors, scaled
 from solver.sharp_edges import trusted_nodes
 from solver.state import State
 from solver.stress import deviatoric_at_nodes, von_mises
@@ -133,13 +134,15 @@ class Newton:
 
     def __post_init__(self) -> None:
         self.assembly = Assembly(self.problem)
-        self.matrix: LinearSolver = quick_solver(self.options.linear_solver)
+        self.scale = factors(self.problem, self.assembly.numbering)
+        self.matrix = scaled(quick_solver(self.options.linear_solver), self.scale)
         self.matrix.analyze(self.assembly.pattern)
         self.analyzed = self.assembly.pattern
         self.touched = False
         self.move = motion_along(self.problem.mesh, self.problem.axis)
         self.trusted = trusted_nodes(self.problem)
-        self.held = ~np.isnan(self.given(1.0))
+        mesh, supports = self.problem.mesh, self.problem.supports
+        self.held = fixed_displacements(mesh, supports, self.problem.moving_plane)
         edge = self.problem.mesh.edge / self.problem.mesh.size
         self.loose_tolerance = min(self.options.loose_tolerance, EDGE_SHARE * edge)
         self.linearised, self.linearised_load = State.zero(self.problem), 0.0
@@ -243,7 +246,7 @@ class Newton:
     def sharpen(self) -> None:
         """Go on in double precision, if single precision was this solver's own choice."""
         if self.options.linear_solver == "auto" and not self.sharp:
-            self.matrix = linear_solver("pardiso")
+            self.matrix = scaled(linear_solver("pardiso"), self.scale)
             self.matrix.analyze(self.analyzed)
 
     @property
@@ -304,9 +307,18 @@ class Newton:
         return State(displacement, state.hydrostatic_pressure, state.plane)
 
     def given(self, load: float) -> Reals:
-        """Given displacements (n, 3) at a fraction of the load, NaN where free, mm."""
+        """Given displacements (n, 3) at a fraction of the load, NaN where free, mm.
+
+        Raises ``ValueError`` if a prescribed motion lets go of something on its way.
+        """
         problem = self.problem
-        return given_displacements(problem.mesh, problem.supports, load, problem.moving_plane)
+        given = given_displacements(problem.mesh, problem.supports, load, problem.moving_plane)
+        if problem.supports.prescribed and (np.isnan(given) == self.held).any():
+            raise ValueError(
+                f"supports: a prescribed motion is NaN at {100 * load:.4g} % of the load in other "
+                "components than at the whole load."
+            )
+        return given
 
     def turned(self, state: State) -> float:
         """Rotation of the tip, or of the moving plane, degrees."""

@@ -207,9 +207,8 @@ def test_motions_that_make_no_sense_are_refused(
 def test_loads_that_make_no_sense_are_refused(
     box: Meshes, ninjaflex: Ogden, load: object, said: str
 ) -> None:
-    problem = Problem(box((1, 1, 1)), ninjaflex, Supports(clamped=("x0",)), loads=(load,))
     with pytest.raises(ValueError, match=said):
-        solve(problem)
+        solve(Problem(box((1, 1, 1)), ninjaflex, Supports(clamped=("x0",)), loads=(load,)))
 
 
 def test_a_cell_with_a_moving_plane_takes_no_dead_loads(cell: Mesh, ninjaflex: Ogden) -> None:
