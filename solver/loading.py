@@ -176,13 +176,14 @@ def _walk_to(newton: Newton, end: float, leg: Leg, path: tuple[PathPoint, ...] =
     options = newton.options
     reached, load, step = leg.reached, leg.load, leg.step
     points: tuple[PathPoint, ...] = ()
-    direction = newton.direction(reached.rate)
+    direction, refusals = newton.direction(reached.rate), 0
     while load != end:
         last = abs(end - load) <= step * (1 + 1e-9)
         target = end if last else load + math.copysign(step, end - load)
         guess = newton.predicted(reached.state, direction, load, target)
+        exact = last or abs(target - load) < SHARPENED
         attempt = newton.correct(
-            guess, target, options.tolerance if last else newton.loose_tolerance
+            guess, target, options.tolerance if exact else newton.loose_tolerance
         )
         failure = attempt.failure or _leapt(newton, reached.state, guess, attempt.state)
         if failure:
@@ -193,8 +194,12 @@ def _walk_to(newton: Newton, end: float, leg: Leg, path: tuple[PathPoint, ...] =
                 return Leg(reached, load, step, points, failure)
             if step < SHARPENED:
                 newton.sharpen()
+            refusals += 1
+            if refusals == 2:  # the state was not good enough, or the direction from it
+                reached, points = _settled(newton, reached, load, points)
+                direction = newton.direction(reached.rate)
             continue
-        step = max(step, options.growth * abs(target - load))
+        step, refusals = max(step, options.growth * abs(target - load)), 0
         reached, load = attempt, target
         points += (newton.point(attempt.state, load, attempt.iterations, newton.stable),)
         newton.effort.load_steps += 1
@@ -204,8 +209,24 @@ def _walk_to(newton: Newton, end: float, leg: Leg, path: tuple[PathPoint, ...] =
     return Leg(reached, load, step, points)
 
 
+def _settled(
+    newton: Newton, reached: Attempt, load: float, points: tuple[PathPoint, ...]
+) -> tuple[Attempt, tuple[PathPoint, ...]]:
+    """A state that was good enough for going on, now to the full tolerance, and its path point.
+
+    Its factorization is at hand then, for the direction to go on in.
+    """
+    better = newton.correct(reached.state, load, newton.options.tolerance)
+    if better.failure:
+        return reached, points
+    if points:
+        spent = points[-1].iterations + better.iterations
+        points = (*points[:-1], newton.point(better.state, load, spent, newton.stable))
+    return better, points
+
+
 SHARPENED = 0.03
-"""A step cut below this fraction of the load asks for double precision."""
+"""A step cut below this fraction of the load asks for double precision and the full tolerance."""
 
 LEAP = 4.0
 """A state so many times further away than predicted lies on another branch."""

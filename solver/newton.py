@@ -133,6 +133,10 @@ class Newton:
     effort: Effort = field(default_factory=Effort)
 
     def __post_init__(self) -> None:
+        if self.pressure and not self.problem.pressurised:
+            raise ValueError(
+                f"pressure = {self.pressure:g} MPa: the problem has no pressurised surface."
+            )
         self.assembly = Assembly(self.problem)
         self.scale = factors(self.problem, self.assembly.numbering)
         self.matrix = scaled(quick_solver(self.options.linear_solver), self.scale)
@@ -198,12 +202,20 @@ class Newton:
         Stable means that the tangent has one negative pivot for each pressure unknown and no
         more: the equilibrium is a minimum of energy among all incompressible neighbours.
         """
-        if self.stable is False:
+        equilibrium = self.evaluate(state, load, tangent=self.stable is False)
+        if not equilibrium.admissible:
+            return Attempt(guess, iterations, "an element would turn inside out")
+        if self.stable is False and not self._stable_at(equilibrium, state, load):
             return Attempt(guess, iterations, "the equilibrium would be unstable")
-        equilibrium = self.evaluate(state, load, tangent=False)
-        if equilibrium.admissible:
-            return Attempt(state, iterations, rate=self.rate(state, load, equilibrium))
-        return Attempt(guess, iterations, "an element would turn inside out")
+        return Attempt(state, iterations, rate=self.rate(state, load, equilibrium))
+
+    def _stable_at(self, equilibrium: Equilibrium, state: State, load: float) -> bool:
+        """Whether a state is stable, where the last tangent, that of a state nearby, is not."""
+        try:
+            self.factorize(equilibrium, state, load)
+        except SingularMatrix:
+            return False
+        return self.stable is not False
 
     @property
     def unstable_modes(self) -> int | None:

@@ -40,7 +40,8 @@ def check_mesh(mesh: Mesh, pressurised: tuple[str, ...], loaded: tuple[str, ...]
     if len(keys) < len(triangles):
         twice = np.setdiff1d(np.arange(len(triangles)), first)[0]
         raise ValueError(
-            f"loads: the triangle at {_place(mesh, triangles[twice])} mm is pressurised twice."
+            f"loads: a triangle of {', '.join(map(repr, pressurised))} at "
+            f"{_place(mesh, triangles[twice])} mm is pressurised twice."
         )
 
 
