@@ -21,7 +21,8 @@ class Checkpoint:
 
     ``reached`` is in equilibrium at the fraction ``load`` of the asked load, the next step is
     ``step`` long and predicted with the tangent at the state ``linearised`` under
-    ``linearised_load``; ``sharp`` says that factorizations went over to double precision.
+    ``linearised_load``; ``sharp`` says that factorizations went over to double precision,
+    ``loose_tolerance`` how good states on the way must be.
     ``points``: the path so far; ``effort``: iterations, factorizations, load steps and refused
     steps so far.
     """
@@ -32,6 +33,7 @@ class Checkpoint:
     linearised: State
     linearised_load: float
     sharp: bool
+    loose_tolerance: float
     points: tuple[PathPoint, ...]
     effort: tuple[int, int, int, int]
 
@@ -56,7 +58,9 @@ class Checkpoint:
 
     def _arrays(self) -> dict[str, Any]:
         points = np.array([[np.nan if v is None else v for v in astuple(p)] for p in self.points])
-        numbers = np.array([self.load, self.step, self.linearised_load, self.sharp])
+        numbers = np.array(
+            [self.load, self.step, self.linearised_load, self.sharp, self.loose_tolerance]
+        )
         states = {
             f"{name}_{field.name}": getattr(getattr(self, name), field.name)
             for name in ("reached", "linearised")
@@ -66,7 +70,7 @@ class Checkpoint:
 
 
 def _checkpoint(arrays: dict[str, Any]) -> Checkpoint:
-    load, step, linearised_load, sharp = arrays["numbers"]
+    load, step, linearised_load, sharp, loose_tolerance = (float(n) for n in arrays["numbers"])
     reached, linearised = (
         State(*(arrays[f"{name}_{field.name}"] for field in fields(State)))
         for name in ("reached", "linearised")
@@ -74,11 +78,12 @@ def _checkpoint(arrays: dict[str, Any]) -> Checkpoint:
     iterations, factorizations, steps, refused = (int(count) for count in arrays["effort"])
     return Checkpoint(
         reached=reached,
-        load=float(load),
-        step=float(step),
+        load=load,
+        step=step,
         linearised=linearised,
-        linearised_load=float(linearised_load),
+        linearised_load=linearised_load,
         sharp=bool(sharp),
+        loose_tolerance=loose_tolerance,
         points=tuple(_point(row) for row in arrays["points"]),
         effort=(iterations, factorizations, steps, refused),
     )

@@ -35,7 +35,8 @@ def solve(
     where there is no pressure) before ``pressure``: passed on the way up, or visited on the way
     back down after a start at full load.
     With ``resume``, a checkpoint that a listener was given on an earlier run of the same problem,
-    pressure, options and stops, the walk goes on from there, to the same bits.
+    pressure, options and stops, the walk goes on from there, to the same bits (unless the first run
+    found the checkpoint's state too poor to go on from).
     A load that cannot be reached gives the last good state with ``converged`` False
     and a ``message``, never a diverged state; if a limit point is why, ``limit`` says at what
     pressure. Raises ``ValueError`` for bad input.
@@ -123,6 +124,7 @@ def _resumed(newton: Newton, checkpoint: Checkpoint) -> tuple[Leg, tuple[PathPoi
     """After the step of a checkpoint, with the factorization that was at hand there."""
     reached, load = checkpoint.reached, checkpoint.load
     _check_shapes(newton, reached.displacement, reached.hydrostatic_pressure)
+    newton.loose_tolerance = checkpoint.loose_tolerance
     if checkpoint.sharp:
         newton.sharpen()
     linearised = checkpoint.linearised, checkpoint.linearised_load
@@ -151,9 +153,9 @@ def _stopped(newton: Newton, leg: Leg, path: tuple[PathPoint, ...]) -> Walk:
     from solver.continuation import limit_ahead
 
     last = newton.correct(leg.reached.state, leg.load, newton.options.tolerance)
-    state = leg.reached.state if last.failure else last.state
-    if not last.failure and path[-1].load == leg.load:
-        path = (*path[:-1], newton.point(state, leg.load, path[-1].iterations, newton.stable))
+    if last.failure:  # no state on the way bears the full tolerance
+        return Walk(State.zero(newton.problem), path[:1], leg.failure)
+    state, path = last.state, _corrected(newton, last, leg.load, path)
     limit = limit_ahead(newton, state, leg.load, STEPS_TO_A_LIMIT)
     if limit is None or not -1e-6 <= limit.point.load - leg.load <= NEAR * leg.load:
         return Walk(state, path, leg.failure)
@@ -176,7 +178,7 @@ def _walk_to(newton: Newton, end: float, leg: Leg, path: tuple[PathPoint, ...] =
     options = newton.options
     reached, load, step = leg.reached, leg.load, leg.step
     points: tuple[PathPoint, ...] = ()
-    direction, refusals = newton.direction(reached.rate), 0
+    direction, refusals, former = newton.direction(reached.rate), 0, (reached, load, points)
     while load != end:
         last = abs(end - load) <= step * (1 + 1e-9)
         target = end if last else load + math.copysign(step, end - load)
@@ -196,9 +198,10 @@ def _walk_to(newton: Newton, end: float, leg: Leg, path: tuple[PathPoint, ...] =
                 newton.sharpen()
             refusals += 1
             if refusals == 2:  # the state was not good enough, or the direction from it
-                reached, points = _settled(newton, reached, load, points)
+                reached, load, points = _settled(newton, (reached, load, points), former)
                 direction = newton.direction(reached.rate)
             continue
+        former = reached, load, points
         step, refusals = max(step, options.growth * abs(target - load)), 0
         reached, load = attempt, target
         points += (newton.point(attempt.state, load, attempt.iterations, newton.stable),)
@@ -209,20 +212,32 @@ def _walk_to(newton: Newton, end: float, leg: Leg, path: tuple[PathPoint, ...] =
     return Leg(reached, load, step, points)
 
 
-def _settled(
-    newton: Newton, reached: Attempt, load: float, points: tuple[PathPoint, ...]
-) -> tuple[Attempt, tuple[PathPoint, ...]]:
-    """A state that was good enough for going on, now to the full tolerance, and its path point.
+Stage = tuple[Attempt, float, tuple[PathPoint, ...]]
+"""A state on the way, its load, and the points up to it."""
 
-    Its factorization is at hand then, for the direction to go on in.
+
+def _settled(newton: Newton, last: Stage, former: Stage) -> Stage:
+    """The later of two stages whose state bears the full tolerance, corrected to it.
+
+    Its factorization is at hand then, for the direction to go on in. A state that was taken for
+    good and is not makes the rest of the walk more careful.
     """
-    better = newton.correct(reached.state, load, newton.options.tolerance)
-    if better.failure:
-        return reached, points
-    if points:
-        spent = points[-1].iterations + better.iterations
-        points = (*points[:-1], newton.point(better.state, load, spent, newton.stable))
-    return better, points
+    for reached, load, points in (last, former):
+        better = newton.correct(reached.state, load, newton.options.tolerance)
+        if not better.failure:
+            return better, load, _corrected(newton, better, load, points)
+        newton.take_care()
+    return last
+
+
+def _corrected(
+    newton: Newton, better: Attempt, load: float, points: tuple[PathPoint, ...]
+) -> tuple[PathPoint, ...]:
+    """Points of which the last one is that of a better state at the same load."""
+    if not points:
+        return points
+    spent = points[-1].iterations + better.iterations
+    return (*points[:-1], newton.point(better.state, load, spent, newton.stable))
 
 
 SHARPENED = 0.03
@@ -259,6 +274,7 @@ def _report(
         linearised=newton.linearised,
         linearised_load=newton.linearised_load,
         sharp=newton.sharp,
+        loose_tolerance=newton.loose_tolerance,
         points=path,
         effort=astuple(effort),
     )

@@ -261,6 +261,10 @@ class Newton:
             self.matrix = scaled(linear_solver("pardiso"), self.scale)
             self.matrix.analyze(self.analyzed)
 
+    def take_care(self) -> None:
+        """From now on states on the way are as good as the last one."""
+        self.loose_tolerance = self.options.tolerance
+
     @property
     def sharp(self) -> bool:
         """Whether factorizations are in double precision."""
