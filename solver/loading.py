@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Sequence
-from dataclasses import astuple, dataclass
+from dataclasses import astuple, dataclass, replace
 
 import numpy as np
 
@@ -182,18 +182,12 @@ def _walk_to(newton: Newton, end: float, leg: Leg, path: tuple[PathPoint, ...] =
     while load != end:
         last = abs(end - load) <= step * (1 + 1e-9)
         target = end if last else load + math.copysign(step, end - load)
-        guess = newton.predicted(reached.state, direction, load, target)
         exact = last or abs(target - load) < SHARPENED
-        attempt = newton.correct(
-            guess, target, options.tolerance if exact else newton.loose_tolerance
-        )
-        failure = attempt.failure or _leapt(newton, reached.state, guess, attempt.state)
-        if failure:
-            newton.effort.refused_steps += 1
-            newton.notify("refused", target, reached.state, attempt.iterations, np.inf)
+        attempt = _step(newton, reached.state, direction, load, target, exact)
+        if attempt.failure:
             step = options.cut * abs(target - load)
             if step < options.smallest_step:
-                return Leg(reached, load, step, points, failure)
+                return Leg(reached, load, step, points, attempt.failure)
             if step < SHARPENED:
                 newton.sharpen()
             refusals += 1
@@ -205,11 +199,26 @@ def _walk_to(newton: Newton, end: float, leg: Leg, path: tuple[PathPoint, ...] =
         step, refusals = max(step, options.growth * abs(target - load)), 0
         reached, load = attempt, target
         points += (newton.point(attempt.state, load, attempt.iterations, newton.stable),)
-        newton.effort.load_steps += 1
         _report(newton, attempt.state, load, step, (*path, *points))
         if load != end:
             direction = newton.direction(attempt.rate)
     return Leg(reached, load, step, points)
+
+
+def _step(
+    newton: Newton, state: State, direction: State, load: float, target: float, exact: bool
+) -> Attempt:
+    """One step from a state to a load, counted and told of if it is refused."""
+    guess = newton.predicted(state, direction, load, target)
+    tolerance = newton.options.tolerance if exact else newton.loose_tolerance
+    attempt = newton.correct(guess, target, tolerance)
+    failure = attempt.failure or _leapt(newton, state, guess, attempt.state)
+    if failure:
+        newton.effort.refused_steps += 1
+        newton.notify("refused", target, state, attempt.iterations, np.inf)
+        return replace(attempt, failure=failure)
+    newton.effort.load_steps += 1
+    return attempt
 
 
 Stage = tuple[Attempt, float, tuple[PathPoint, ...]]
