@@ -92,6 +92,9 @@ DIFFERENCE = 1e-6
 EDGE_SHARE = 0.1
 """Share of a mean edge by which a state on the way may be off."""
 
+IMBALANCE = 1e-3
+"""More than that is left where a factorization used again was blind to a soft mode of the body."""
+
 DIVERGED = 1.0
 """A correction of so many body diagonals corrects nothing."""
 
@@ -101,12 +104,14 @@ class Attempt:
     """Newton's outcome at one load: a state in equilibrium, or why there is none.
 
     ``rate``: the residual's derivative with respect to the load there, N (see ``Newton.rate``).
+    ``imbalance``: the residual left there, relative to that of the load alone.
     """
 
     state: State
     iterations: int
     failure: str = ""
     rate: Reals = field(default_factory=lambda: np.zeros(0))
+    imbalance: float = 0.0
 
 
 @dataclass
@@ -192,7 +197,12 @@ class Newton:
             depth = self.assembly.touches.depth(state)
             self.touched |= bool(np.isfinite(depth))
             if correction <= min(allowed, depth):
-                return self.verified(state, load, iteration, guess)
+                attempt = self.verified(state, load, iteration, guess)
+                loose = tolerance > self.options.tolerance
+                if attempt.failure or loose or not reuse or attempt.imbalance <= IMBALANCE:
+                    return attempt
+                previous, reuse = correction, False
+                continue
             previous, reuse = correction, correction < self.options.reuse * previous
         return Attempt(guess, iteration, f"Newton did not converge in {iteration} iterations")
 
@@ -207,7 +217,10 @@ class Newton:
             return Attempt(guess, iterations, "an element would turn inside out")
         if self.stable is False and not self._stable_at(equilibrium, state, load):
             return Attempt(guess, iterations, "the equilibrium would be unstable")
-        return Attempt(state, iterations, rate=self.rate(state, load, equilibrium))
+        rate = self.rate(state, load, equilibrium)
+        pushed = float(np.linalg.norm(load * rate)) or 1.0
+        imbalance = float(np.linalg.norm(equilibrium.residual)) / pushed
+        return Attempt(state, iterations, rate=rate, imbalance=imbalance)
 
     def _stable_at(self, equilibrium: Equilibrium, state: State, load: float) -> bool:
         """Whether a state is stable, where the last tangent, that of a state nearby, is not."""

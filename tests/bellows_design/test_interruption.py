@@ -63,6 +63,12 @@ main()
 """
 
 
+def heeding() -> None:
+    """In a new process: what a shell runs in its background may be deaf to signals."""
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, signal.SIG_DFL)
+
+
 def struck(folder: Path, number: int, *arguments: str) -> tuple[int, str, str]:
     """Run a command that gets a signal when its file is written but not yet in place."""
     (folder / "data.csv").write_text(CSV)
@@ -72,6 +78,7 @@ def struck(folder: Path, number: int, *arguments: str) -> tuple[int, str, str]:
         env={**os.environ, "PYTHONPATH": str(ROOT)},
         capture_output=True,
         encoding="utf-8",
+        preexec_fn=heeding,
         timeout=60,
     )
     (folder / "data.csv").unlink()
@@ -123,6 +130,7 @@ def test_a_signal_before_the_command_is_even_loaded_is_one_sentence_too() -> Non
         cwd=ROOT,
         capture_output=True,
         encoding="utf-8",
+        preexec_fn=heeding,
         timeout=60,
     )
     assert (done.returncode, done.stdout) == (130, "")
@@ -234,6 +242,7 @@ def _struck_at(
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         encoding="utf-8",
+        preexec_fn=heeding,
     )
     if number is not None and moment is not None:
         time.sleep(moment)
