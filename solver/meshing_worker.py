@@ -14,6 +14,7 @@ import os
 import shutil
 import sys
 import threading
+import time
 from io import FileIO
 from pathlib import Path
 from queue import SimpleQueue
@@ -44,8 +45,17 @@ def _watch(folder: Path, jobs: SimpleQueue[Any]) -> None:
     stream = FileIO(STDIN, "rb", closefd=False)
     while (job := receive(stream)) is not None:
         jobs.put(job)
-    shutil.rmtree(folder, ignore_errors=True)
+    _remove(folder)
     os._exit(0)
+
+
+def _remove(folder: Path) -> None:
+    """Remove a folder in which Gmsh, in the other thread, may still be writing."""
+    for _ in range(40):
+        shutil.rmtree(folder, ignore_errors=True)
+        if not folder.exists():
+            return
+        time.sleep(0.05)
 
 
 def _load_gmsh() -> dict[str, str] | None:

@@ -52,4 +52,5 @@ def test_plain_newton_and_superlu_find_the_same_state(half_actuator: Problem) ->
     first = solve(plain, 0.01)
     second = solve(half_actuator, 0.01, SolverOptions(linear_solver="superlu"))
     assert first.converged and second.converged
-    assert first.displacement == pytest.approx(second.displacement, abs=1e-5)
+    # each is told to stop at corrections of 1e-5 diagonals, 5e-4 mm
+    assert first.displacement == pytest.approx(second.displacement, abs=1e-4)
