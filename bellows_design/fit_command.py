@@ -12,7 +12,8 @@ from pydantic import ValidationError
 from bellows_design.atomic import replacing
 from bellows_design.errors import DesignError, quoted, sentences
 from bellows_design.fit_report import fit_content, fit_table
-from bellows_design.fitting import BEST, YEOH, Fit
+from bellows_design.fit_result import Fit
+from bellows_design.fitting import BEST, YEOH
 from bellows_design.fitting import fit as fit_measurements
 from bellows_design.materials import Material
 from bellows_design.measurements import Measurements, load_measurements

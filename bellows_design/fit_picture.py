@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bellows_design.atomic import replacing
-from bellows_design.fitting import Fit
+from bellows_design.fit_result import Fit
 from bellows_design.homogeneous import MODES, nominal_stress
 from bellows_design.measurements import Measurements
 from bellows_design.plots import COLOURS, require_matplotlib

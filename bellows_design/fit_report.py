@@ -10,7 +10,7 @@ from rich.console import RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from bellows_design.fitting import Choice, Constant, Fit
+from bellows_design.fit_result import Choice, Constant, Fit
 from bellows_design.measurements import Measurements
 from bellows_design.stability import HIGHEST, StableRange
 

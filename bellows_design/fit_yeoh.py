@@ -12,17 +12,16 @@ import math
 
 import numpy as np
 
-from bellows_design.fitting import (
+from bellows_design.fit_result import (
     VANISHED,
-    YEOH,
     Constant,
     Fit,
-    Weighted,
     aicc_of,
     difference_of,
     misfit_of,
     r_squared_of,
 )
+from bellows_design.fit_weights import Weighted
 from bellows_design.homogeneous import MODES, Reals, first_invariant, unit_stresses
 from bellows_design.measurements import Measurements
 from bellows_design.stability import stability
@@ -44,7 +43,7 @@ def fit_yeoh(data: Measurements, problem: Weighted) -> Fit:
     mu, alpha, higher = (2 * float(constants[0]),), (2.0,), tuple(constants[1:].tolist())
     difference = difference_of(data, np.array(mu), np.array(alpha), higher)
     return Fit(
-        model=YEOH,
+        model="yeoh",
         mu=mu,
         alpha=alpha,
         constants=_intervals(constants, columns, relative, problem),

@@ -23,22 +23,27 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bellows_design.errors import DesignError, did_you_mean, quoted
-from bellows_design.homogeneous import MODES, Reals, nominal_stress, unit_slopes, unit_stresses
+from bellows_design.fit_result import (
+    BEST_ERROR,
+    VANISHED,
+    Choice,
+    Constant,
+    Fit,
+    aicc_of,
+    difference_of,
+    misfit_of,
+    r_squared_of,
+)
+from bellows_design.fit_weights import FLOOR, Weighted
+from bellows_design.homogeneous import MODES, Reals, nominal_stress
 from bellows_design.measurements import Measurements
-from bellows_design.stability import Stability, stability
-
-FLOOR = 0.05
-"""Part of a test's largest stress below which errors count against that part."""
-
-SMALLEST_TEST = 1e-3
-"""Largest stress a test counts as having at least, as part of that of all tests."""
+from bellows_design.stability import stability
 
 LARGEST_EXPONENT = 30.0
 """Bound of |α|. Elastomers stay far below."""
@@ -52,23 +57,8 @@ STARTS = 6
 MOST_STEPS = 60
 """Steps of a refinement; what creeps on has constants the measurements do not tell."""
 
-FEW_POINTS = 1000
-"""Points the starts are compared on; the best of them is refined on all."""
-
-VANISHED = 1e-4
-"""Relative part of the stress below which a term adds nothing anywhere."""
-
-OPEN_FACTOR, OPEN_EXPONENT = 10.0, 2.0
-"""Half-widths of an interval from which on a constant counts as not determined."""
-
 SAME_ERROR, SAME_LIKELIHOOD = 1e-3, 4.0
 """Fits are equally good below that relative error, or that difference of n ln s²."""
-
-RIVAL = 0.1
-"""Relative difference in stress from which on equally good fits are not the same."""
-
-BEST_ERROR = 0.01
-"""Relative error below which no model is better than another."""
 
 NOT_MUCH_WORSE = 10.0
 """Difference in AICc up to which the smaller model is preferred."""
@@ -86,145 +76,6 @@ MODELS: dict[str, tuple[float | None, ...]] = {
 YEOH = "yeoh"
 CHOICES = (BEST, *MODELS, YEOH)
 """What may be asked for. ``best`` is one of ``MODELS``."""
-
-
-@dataclass(frozen=True)
-class Constant:
-    """A fitted constant: value, standard error and 95 % interval; an exponent may be given.
-
-    ``signed`` is one of Yeoh's, which may be negative.
-    """
-
-    name: str
-    unit: str
-    value: float
-    standard_error: float
-    low: float
-    high: float
-    fixed: bool = False
-    signed: bool = False
-
-    @property
-    def determined(self) -> bool:
-        """False if the measurements leave it open: μ by a factor of 10, α by 2 and by itself.
-
-        Of a signed constant the measurements must tell the sign.
-        """
-        if self.fixed:
-            return True
-        if self.signed:
-            return self.low * self.high > 0
-        if self.unit:
-            return self.high < OPEN_FACTOR * self.value
-        return self.high - self.value < max(abs(self.value), OPEN_EXPONENT)
-
-
-@dataclass(frozen=True)
-class Misfit:
-    """The largest difference of model and measurement, MPa, and where it is."""
-
-    error: float
-    mode: str
-    stretch: float
-
-
-@dataclass(frozen=True)
-class Fit:
-    """A fitted model. Terms are in the order of falling ``mu``; ``higher`` is of Yeoh's; MPa."""
-
-    model: str
-    mu: tuple[float, ...]
-    alpha: tuple[float, ...]
-    constants: tuple[Constant, ...]
-    points: int
-    r_squared: float
-    relative_error: float
-    misfit: Misfit
-    aicc: float
-    vanished: bool
-    rivalry: float
-    stability: Stability
-    higher: tuple[float, ...] = ()
-
-    @property
-    def unique(self) -> bool:
-        """False if quite other constants, found from another start, fit the tests as well.
-
-        Planar tests, for one, do not tell the sign of α. ``rivalry`` is the relative difference
-        that they make to the stress of any of the three tests.
-        """
-        return self.rivalry < RIVAL
-
-    @property
-    def determined(self) -> bool:
-        """True if the measurements tell every constant."""
-        told = all(constant.determined for constant in self.constants)
-        return told and self.unique and not self.vanished
-
-    @property
-    def stable(self) -> bool:
-        """True if no unstable state was found."""
-        return self.stability.everywhere
-
-    @property
-    def free_constants(self) -> int:
-        """Number of constants that were fitted."""
-        return sum(not constant.fixed for constant in self.constants)
-
-
-class Choice(NamedTuple):
-    """The fit that answers, and all that were tried for it."""
-
-    fit: Fit
-    tried: tuple[Fit, ...]
-
-
-@dataclass(frozen=True)
-class Weighted:
-    """Measurements in the form the solvers want; ``stress`` in units of ``unit`` MPa."""
-
-    mean: Reals
-    gap: Reals
-    logs: Reals
-    stress: Reals
-    weight: Reals
-    unit: float
-
-    @classmethod
-    def of(cls, data: Measurements) -> Weighted:
-        means = np.array([mode.mean for mode in MODES.values()])
-        gaps = np.array([mode.gap for mode in MODES.values()])
-        unit = float(np.abs(data.stress).max())
-        floor = FLOOR * np.maximum(data.scale, SMALLEST_TEST * unit)
-        weight = unit / np.maximum(np.abs(data.stress), floor)
-        logs = np.log(data.stretch)
-        return cls(means[data.mode], gaps[data.mode], logs, data.stress / unit, weight, unit)
-
-    def thinned(self) -> Weighted:
-        """At most about ``FEW_POINTS`` of the points that tell, evenly from every test."""
-        order = np.lexsort((self.logs, self.gap))
-        order = order[self.logs[order] != 0]
-        chosen = order[:: -(-order.size // FEW_POINTS)]
-        names = ("mean", "gap", "logs", "stress", "weight")
-        return replace(self, **{name: getattr(self, name)[chosen] for name in names})
-
-    def columns(self, alpha: Reals) -> Reals:
-        """(n, terms) weighted stress of each term with μ = 1."""
-        return self.weight[:, None] * unit_stresses(self.mean, self.gap, self.logs, alpha)
-
-    def slopes(self, alpha: Reals) -> Reals:
-        """(n, terms) their derivatives with respect to α."""
-        return self.weight[:, None] * unit_slopes(self.mean, self.gap, self.logs, alpha)
-
-    @property
-    def target(self) -> Reals:
-        """(n,) weighted measured stress."""
-        return self.weight * self.stress
-
-    @property
-    def telling(self) -> int:
-        """Points that tell of the constants: all but those at stretch 1."""
-        return int((self.logs != 0).sum())
 
 
 def fit(data: Measurements, model: str = BEST) -> Choice:
@@ -453,33 +304,3 @@ def _constants(
 
 def _exp(x: float) -> float:
     return math.exp(x) if x < 700 else math.inf
-
-
-def difference_of(
-    data: Measurements, mu: Reals, alpha: Reals, higher: Sequence[float] = ()
-) -> Reals:
-    """(n,) model less measurement, MPa."""
-    result = -data.stress
-    for number, mode in enumerate(MODES.values()):
-        chosen = data.mode == number
-        result[chosen] += nominal_stress(mode, data.stretch[chosen], mu, alpha, higher)
-    return result
-
-
-def r_squared_of(stress: Reals, difference: Reals) -> float:
-    """1 less the part of the variance that is left; 0 where there is no variance."""
-    variance = float(((stress - stress.mean()) ** 2).sum())
-    return 1 - float((difference**2).sum()) / variance if variance > 0 else 0.0
-
-
-def misfit_of(data: Measurements, difference: Reals) -> Misfit:
-    worst = int(np.abs(difference).argmax())
-    mode = list(MODES)[data.mode[worst]]
-    return Misfit(float(abs(difference[worst])), mode, float(data.stretch[worst]))
-
-
-def aicc_of(relative: float, points: int, count: int) -> float:
-    if points <= count + 1:
-        return math.inf
-    fit = points * math.log(max(relative, BEST_ERROR) ** 2)
-    return fit + 2 * count + 2 * count * (count + 1) / (points - count - 1)
