@@ -54,22 +54,18 @@ def corrected(newton: Newton, guess: State, load: float, row: Row) -> Station:
     """
     state, size = guess, newton.problem.mesh.size
     for iteration in range(1, newton.options.maximum_iterations + 1):
-        equilibrium = newton.evaluate(state, load)
-        if not equilibrium.admissible:
-            return Station(guess, load, iteration, failure="an element would turn inside out")
-        try:
-            newton.factorize(equilibrium, state, load)
-        except SingularMatrix as error:
-            return Station(guess, load, iteration, failure=f"the tangent is singular ({error})")
+        equilibrium, failure = _linearised(newton, state, load)
+        if failure:
+            return Station(guess, load, iteration, failure=failure)
         r = newton.matrix.solve(-equilibrium.residual)
         d = newton.matrix.solve(-newton.rate(state, load, equilibrium))
-        change = row(state, equilibrium, r, d)
+        change = float(row(state, equilibrium, r, d))
         increment = newton.expanded(r + change * d)
         correction = float(np.abs(newton.linear(state, increment)).max())
         if not correction < DIVERGED * size:
             return Station(guess, load, iteration, failure="the corrections grew without bound")
-        state, load = newton.advance(state, increment), load + float(change)
-        state = newton.placed(state, load) if newton.problem.supports.prescribed else state
+        load += change
+        state = newton.led(newton.advance(state, increment), load)
         newton.effort.iterations += 1
         newton.notify("iteration", load, state, iteration, correction)
         if correction <= newton.options.tolerance * size:
@@ -79,12 +75,20 @@ def corrected(newton: Newton, guess: State, load: float, row: Row) -> Station:
 
 def station(newton: Newton, state: State, load: float, iterations: int = 0) -> Station:
     """What the tangent at an equilibrium says: where the path goes on, and whether it is stable."""
+    equilibrium, failure = _linearised(newton, state, load)
+    if failure:
+        return Station(state, load, iterations, failure=failure)
+    direction = newton.matrix.solve(-newton.rate(state, load, equilibrium))
+    return Station(state, load, iterations, direction, equilibrium.force, newton.unstable_modes)
+
+
+def _linearised(newton: Newton, state: State, load: float) -> tuple[Equilibrium, str]:
+    """Residual and tangent at a state, the tangent factorized; or why there is none."""
     equilibrium = newton.evaluate(state, load)
     if not equilibrium.admissible:
-        return Station(state, load, iterations, failure="an element would turn inside out")
+        return equilibrium, "an element would turn inside out"
     try:
         newton.factorize(equilibrium, state, load)
     except SingularMatrix as error:
-        return Station(state, load, iterations, failure=f"the tangent is singular ({error})")
-    direction = newton.matrix.solve(-newton.rate(state, load, equilibrium))
-    return Station(state, load, iterations, direction, equilibrium.force, newton.unstable_modes)
+        return equilibrium, f"the tangent is singular ({error})"
+    return equilibrium, ""

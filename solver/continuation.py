@@ -72,7 +72,7 @@ def trace(
     path ends where that is passed, where ``until`` says so of a point, after ``steps`` steps, or
     where no step succeeds. The first step is ``options.first_step`` of the load; none moves the
     nodes by more than ``longest_step`` body diagonals (root mean square). Raises ``ValueError``
-    for a pressure that is not finite.
+    for a pressure that is not finite, and for no steps or steps of no length.
     """
     if not np.isfinite(pressure):
         raise ValueError(f"pressure must be a finite number of MPa, got {pressure}.")
@@ -93,8 +93,11 @@ def trace(
         points.append(limit.point if limit else walker.point(arc))
         states.append(arc.station.state)
         limits += [limit] if limit else []
-        if arc.station.load >= 1 or (until is not None and until(points[-1])):
+        if arc.station.load >= 1:
             message = "the asked load is reached."
+            break
+        if until is not None and until(points[-1]):
+            message = "it ends where it was asked to."
             break
         if number >= steps:
             message = f"it ends after {steps} steps."
@@ -176,10 +179,8 @@ class Walker:
     def _step(self, arc: Arc, length: float) -> Arc:
         """One step of a given length; it fails too where the path would turn sharply."""
         newton, here = self.newton, arc.station
-        guess = newton.advance(here.state, newton.expanded(arc.tangent), length)
         load = here.load + arc.slope * length
-        if newton.problem.supports.prescribed:
-            guess = newton.placed(guess, load)
+        guess = newton.led(newton.advance(here.state, newton.expanded(arc.tangent), length), load)
 
         def back_to_the_plane(_s: State, _e: Equilibrium, r: Reals, d: Reals) -> float:
             return -self._product(arc.tangent, r) / self._product(arc.tangent, d)

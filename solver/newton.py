@@ -326,8 +326,11 @@ class Newton:
 
     def predicted(self, state: State, direction: State, load: float, target: float) -> State:
         """The state at ``target`` by the direction at ``load``, with the supports in place."""
-        guess = self.advance(state, direction, target - load)
-        return self.placed(guess, target) if self.problem.supports.prescribed else guess
+        return self.led(self.advance(state, direction, target - load), target)
+
+    def led(self, state: State, load: float) -> State:
+        """A state with what prescribed motions lead put where it is at a fraction of the load."""
+        return self.placed(state, load) if self.problem.supports.prescribed else state
 
     def placed(self, state: State, load: float) -> State:
         """A state with what is held or led put where it is at a fraction of the load."""
