@@ -2,43 +2,32 @@
 
 from __future__ import annotations
 
-import math
 import os
 import random
 import sys
-import time
-from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager, suppress
+from collections.abc import Callable, Iterable
+from contextlib import suppress
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
 import pytest
+from damage import BAD_VALUES, FUZZ, mutated, saved, soon
 from fakes import FakeEvaluation, fake_report
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from refusals import refused_in_sentences
 
 from bellows_design import pipeline
 from bellows_design.approval import decide
 from bellows_design.design import Design, load_design, shipped_designs
 from bellows_design.errors import DesignError
 from bellows_design.export import export_approved, require_place, withdraw
-from bellows_design.fitting import Choice, fit
 from bellows_design.formats import Part
-from bellows_design.measurements import load_measurements, parse_measurements
+from bellows_design.measurements import load_measurements
 from bellows_design.overrides import known_keys, with_overrides
 from bellows_design.pressures import MOST, parse_pressures
 
-FUZZ = settings(
-    derandomize=True,
-    deadline=None,
-    max_examples=100,
-    suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
-)
-SECONDS = 5.0
-"""Of computing, for one input; a hang takes minutes."""
-
-LONGEST_SENTENCE = 1000
 DESIGNS = Path(__file__).parents[2] / "bellows_design" / "designs"
 MATERIALS = DESIGNS.parent / "materials"
 BASE = (DESIGNS / "prototype_2_indent.toml").read_bytes()
@@ -50,124 +39,6 @@ BAD_NAMES = [
     *("../x", "../../x", "a/b", "/tmp/x", "/", ".", "..", "", "-x", "~", "~/x", "..\\x", "c:x"),
     *("con", "NUL", "aux", "lpt1", "x" * 65, "x" * 5000, "a\0b", "a\nb", "x.", ".x", "\u202ex"),
 ]
-BAD_VALUES = [
-    *("1e999", "-1e999", "nan", "-inf", "1e-999", "-0.0", "0x" + "f" * 5000, "1" * 5000, "1" * 400),
-    *(
-        "true",
-        '""',
-        '"\\u0000"',
-        "[]",
-        "[[[[1]]]]",
-        "{}",
-        "{a = {a = 1}}",
-        "1979-05-27",
-        "07:32:00",
-    ),
-    *("[" * 10_000, "[" * 50 + "]" * 50, "{" + "a." * 60_000 + "a = 1}", "'" + "x" * 90_000 + "'"),
-    *(
-        "[0x" + "f" * 5000 + "]",
-        "",
-        "=",
-        "'",
-        '"""',
-        "\ud800",
-        "\0",
-        "none",
-        "None",
-        "1\nname = 'x'",
-    ),
-]
-
-
-@contextmanager
-def soon() -> Iterator[None]:
-    """Fails if the block takes longer than any input should."""
-    start = time.process_time()
-    yield
-    assert time.process_time() - start < SECONDS
-
-
-def refused_in_sentences(read: Callable[[], object]) -> bool:
-    """True if ``read`` refused as documented; any error but ``DesignError`` goes through."""
-    with soon():
-        try:
-            read()
-        except DesignError as error:
-            assert 0 < len(error.sentences) <= 21
-            assert str(error).split("\n") == list(error.sentences)
-            assert all(0 < len(line) < LONGEST_SENTENCE for line in error.sentences)
-            assert all(line.isprintable() for line in error.sentences)
-            return True
-    return False
-
-
-def saved(folder: Path, content: bytes, name: str = "fuzzed.toml") -> Path:
-    path = folder / name
-    path.write_bytes(content)
-    return path
-
-
-def mutated(content: bytes, chance: random.Random) -> bytes:
-    """``content`` with one or several of the damages that happen to files, or are done to them."""
-    for _ in range(chance.randint(1, 3)):
-        content = chance.choice(DAMAGES)(content, chance)
-    return content
-
-
-def _cut_short(content: bytes, chance: random.Random) -> bytes:
-    return content[: chance.randrange(len(content) + 1)]
-
-
-def _flipped(content: bytes, chance: random.Random) -> bytes:
-    flipped = bytearray(content)
-    for _ in range(min(len(flipped), chance.randint(1, 8))):
-        flipped[chance.randrange(len(flipped))] ^= 1 << chance.randrange(8)
-    return bytes(flipped)
-
-
-def _line_replaced(content: bytes, chance: random.Random) -> bytes:
-    lines = content.split(b"\n")
-    at = chance.randrange(len(lines))
-    key = lines[at].partition(b"=")[0]
-    lines[at] = key + b"= " + chance.choice(BAD_VALUES).encode("utf-8", "surrogatepass")
-    return b"\n".join(lines)
-
-
-def _line_doubled(content: bytes, chance: random.Random) -> bytes:
-    lines = content.split(b"\n")
-    lines.insert(chance.randrange(len(lines)), chance.choice(lines))
-    return b"\n".join(lines)
-
-
-def _spliced(content: bytes, chance: random.Random) -> bytes:
-    at = chance.randrange(len(content) + 1)
-    pieces = (
-        b"\0",
-        b"\xff",
-        b"\xef\xbb\xbf",
-        b"\r",
-        b'"',
-        b"[",
-        b"]]",
-        b"\n[bellows]\n",
-        b"\x1b[2J",
-    )
-    return content[:at] + chance.choice(pieces) + content[at:]
-
-
-def _differently_encoded(content: bytes, chance: random.Random) -> bytes:
-    text = content.decode("utf-8", "replace")
-    return text.encode(chance.choice(["utf-16", "utf-32", "utf-8-sig", "cp1250"]), "replace")
-
-
-DAMAGES: tuple[Callable[[bytes, random.Random], bytes], ...] = (
-    _cut_short,
-    _flipped,
-    _line_replaced,
-    _line_doubled,
-    _spliced,
-    _differently_encoded,
-)
 
 
 @pytest.mark.parametrize("name", shipped_designs())
@@ -267,80 +138,6 @@ def test_any_assignment_changes_the_design_or_is_refused(texts: list[str]) -> No
 def test_no_known_key_takes_a_bad_value_but_in_sentences(value: str) -> None:
     for key in known_keys():
         refused_in_sentences(lambda key=key: with_overrides(PROTOTYPE, [f"{key}={value}"]))  # type: ignore[misc]
-
-
-@pytest.mark.parametrize("key", ["mu", "alpha", "yield_strength", "name", "source", "model", "new"])
-def test_a_material_of_bad_values_is_refused_in_sentences(key: str) -> None:
-    table = BASE.decode().replace('material = "ninjaflex"\n', "")
-    fields = {"name": '"m"', "mu": "[1.0]", "alpha": "[2.0]", "yield_strength": "4"}
-    for value in [*BAD_VALUES, "[1e999]", "[nan]", "[1.0, 2.0]", "[1e308, 1e308]", "[0]", "['1']"]:
-        lines = [f"{name} = {text}" for name, text in (fields | {key: value}).items()]
-        text = table + "\n[material]\n" + "\n".join(lines)
-        refused_in_sentences(lambda text=text: Design.from_toml(text))  # type: ignore[misc]
-
-
-def test_a_damaged_table_of_measurements_is_read_or_refused(tmp_path: Path) -> None:
-    chance = random.Random("measurements")
-    for _ in range(300):
-        path = saved(tmp_path, mutated(CSV, chance), "fuzzed.csv")
-        refused_in_sentences(lambda path=path: load_measurements(path))  # type: ignore[misc]
-
-
-def test_a_damaged_material_is_taken_or_refused_in_sentences() -> None:
-    """Material files of the library as a table of a design, damaged."""
-    table = BASE.decode().replace('material = "ninjaflex"\n', "").encode() + b"\n[material]\n"
-    chance = random.Random("materials")
-    for path in sorted(MATERIALS.glob("*.toml")) * 12:
-        content = table + mutated(path.read_bytes(), chance)
-        refused_in_sentences(lambda text=content: Design.from_toml(text.decode("utf-8", "replace")))  # type: ignore[misc]
-
-
-def tables() -> st.SearchStrategy[str]:
-    """Tables that are nearly measurements: some can be fitted."""
-    stretches = st.floats(0.04, 21) | st.sampled_from([1.0, 1.1, 1.2, 2.0, 5e-324, 1 + 1e-15])
-    stresses = st.floats(-3, 1001) | st.sampled_from([0.0, -0.0, 1e-300, 0.1, 0.5, 1.0])
-    modes = st.sampled_from(["uniaxial", "biaxial", "planar"])
-    rows = st.lists(st.tuples(modes, stretches, stresses), min_size=4, max_size=12)
-    return rows.map(
-        lambda each: (
-            "mode,stretch,stress_mpa\n"
-            + "".join(f"{mode},{x:.17f},{y:.17f}\n" for mode, x, y in each)
-        )
-    )
-
-
-@settings(FUZZ, max_examples=30)
-@given(text=tables())
-def test_any_table_is_fitted_or_refused_in_sentences(text: str) -> None:
-    found: list[Choice] = []
-    if not refused_in_sentences(
-        lambda: found.append(fit(parse_measurements(text, "it"), "ogden1"))
-    ):
-        constants = (*found[0].fit.mu, *found[0].fit.alpha)
-        assert all(math.isfinite(constant) for constant in constants)
-
-
-@pytest.mark.parametrize(
-    "text",
-    [
-        pytest.param("h" * 5_000_000, id="a long column"),
-        pytest.param("," * 1_000_000, id="many columns"),
-        pytest.param("stretch,stress_mpa\n" + "1.1,0.1\n" * 100_001, id="many rows"),
-        pytest.param("stretch,stress_mpa\n" + "1" * 1_000_000 + ",1\n", id="a long number"),
-        pytest.param("stretch,stress_mpa\n" + "1e999,1\n" * 9, id="infinite"),
-        pytest.param("stretch,stress_mpa\n" + "nan,nan\n" * 9, id="no numbers"),
-        pytest.param("\n" * 1_000_000, id="empty lines"),
-        pytest.param("stretch,stretch,stress_mpa\n", id="a column twice"),
-    ],
-)
-def test_a_table_made_to_harm_is_refused_soon(text: str) -> None:
-    assert refused_in_sentences(lambda: parse_measurements(text, "it"))
-
-
-@FUZZ
-@given(st.text(max_size=300))
-def test_any_text_is_refused_as_measurements(text: str) -> None:
-    assert refused_in_sentences(lambda: parse_measurements(text, "it"))
 
 
 def pressure_texts() -> st.SearchStrategy[str]:

@@ -9,6 +9,8 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from rounding import next_step
+
 NOISE = 1e-3
 
 
@@ -55,7 +57,7 @@ def at_most(what: str, value: float, limit: float, unit: str = "") -> Finding:
 
     Nothing below a thousandth of the limit is told apart: that much may be rounding.
     """
-    bound = _next_step(max(abs(value), NOISE * limit)) if math.isfinite(value) else math.inf
+    bound = next_step(max(abs(value), NOISE * limit)) if math.isfinite(value) else math.inf
     return Finding(f"{what} ≤ {_plain(bound, unit)}", abs(value) <= limit, f"{value:.4g}")
 
 
@@ -92,11 +94,6 @@ def _answer(call: Callable[[], object], words: str) -> str:
     except Exception as error:  # any other kind is not the refusal that was asked for
         return f"raised {error!r}"
     return "was taken"
-
-
-def _next_step(least: float) -> float:
-    decade = 10.0 ** math.floor(math.log10(least))
-    return next(m * decade for m in (1, 2, 5, 10) if least <= m * decade * (1 + 1e-9))
 
 
 def _plain(value: float, unit: str = "") -> str:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 
 from case import Case, Order, Outcome, Row
+from rounding import next_step
 
 NOISE = 1e-3
 ROUNDING = 1e-13
@@ -41,9 +42,7 @@ def summary(case: Case, outcome: Outcome) -> str:
 
 def bound(error: float, tolerance: float) -> float:
     """The next of 1, 2, 5, 10, ... at or above an error, or above what may be rounding."""
-    least = max(error, NOISE * tolerance, ROUNDING)
-    decade = 10.0 ** math.floor(math.log10(least))
-    return next(m * decade for m in (1, 2, 5, 10) if least <= m * decade * (1 + 1e-9))
+    return next_step(max(error, NOISE * tolerance, ROUNDING))
 
 
 def _row(row: Row) -> str:
