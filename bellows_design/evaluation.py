@@ -126,7 +126,7 @@ def _with_ends(evaluation: Evaluation, progress: Progress) -> Evaluation:
     built = time.perf_counter()
     mesh = first_plan(solid, short).made(evaluation.budget)
     meshed = time.perf_counter()
-    options = SolverOptions(tolerance=ROUGH, first_step=0.35)  # it bends little: long steps do
+    options = SolverOptions(tolerance=ROUGH)
     problem = HALF.problem(short, mesh)
     ends = _solved(short, problem, progress, options, stops=evaluation.pressures)
     return _spent(replace(evaluation, ends=ends), built - began, meshed - built, meshed)

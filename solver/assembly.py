@@ -85,7 +85,7 @@ class Assembly:
         displacement = np.ascontiguousarray(state.displacement)
         kernels.assemble(
             self._solid, self._places, displacement, state.hydrostatic_pressure,
-            tangent, residual, values, jacobians,
+            self._geometric(state), tangent, residual, values, jacobians,
         )  # fmt: skip
         if self.plane is None:
             assemble_pressure(self._skin, displacement, pressure, tangent, force, values)
@@ -103,10 +103,27 @@ class Assembly:
         values, pattern = self.touches.add(state, tangent, residual, values)
         return Equilibrium(residual, force, values, float(jacobians.min(initial=np.inf)), pattern)
 
+    def extrapolated_stress(self, state: State, increment: State) -> Reals:
+        """Stress after an increment from a state, to first order: a ``State.geometric_stress``.
+
+        For problems without a moving plane.
+        """
+        stress = np.empty((len(self.problem.mesh.tets), len(self._solid.weights), 6))
+        kernels.extrapolated_stress(
+            self._solid, np.ascontiguousarray(state.displacement), state.hydrostatic_pressure,
+            np.ascontiguousarray(increment.displacement), increment.hydrostatic_pressure, stress,
+        )  # fmt: skip
+        return stress
+
     def energy(self, state: State) -> float:
         """Pi of the solid and its contacts, N mm: its gradient is the residual at zero pressure."""
         solid = kernels.total_energy(self._solid, state.displacement, state.hydrostatic_pressure)
         return float(solid[0]) + self.touches.energy(state)
+
+    def _geometric(self, state: State) -> Reals:
+        """A state's geometric stress as the kernels want it: (e, 0, 6) for none."""
+        stress = state.geometric_stress
+        return stress if len(stress) else np.empty((len(self.problem.mesh.tets), 0, 6))
 
     def _with_plane(self, dofs: Integers) -> Integers:
         """The dofs (e, m) of cells with those of the moving plane at the end, (e, m + 2)."""
@@ -134,7 +151,7 @@ def unbalanced_forces(problem: Problem, state: State, pressure: float, load: flo
     displacement = np.ascontiguousarray(state.displacement)
     kernels.assemble(
         solid(problem), places, displacement, state.hydrostatic_pressure,
-        False, residual, nothing, np.empty(len(mesh.tets)),
+        np.empty((len(mesh.tets), 0, 6)), False, residual, nothing, np.empty(len(mesh.tets)),
     )  # fmt: skip
     triangles = mesh.triangles(*problem.pressurised)
     no_entries = np.empty((len(triangles), 0), np.int32)

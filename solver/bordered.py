@@ -88,7 +88,7 @@ def _linearised(newton: Newton, state: State, load: float) -> tuple[Equilibrium,
     if not equilibrium.admissible:
         return equilibrium, "an element would turn inside out"
     try:
-        newton.factorize(equilibrium, state, load)
+        newton.factorize(equilibrium)
     except SingularMatrix as error:
         return equilibrium, f"the tangent is singular ({error})"
     return equilibrium, ""

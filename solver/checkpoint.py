@@ -20,9 +20,7 @@ class Checkpoint:
     """A load step that was reached, and what the next one depends on.
 
     ``reached`` is in equilibrium at the fraction ``load`` of the asked load, the next step is
-    ``step`` long and predicted with the tangent at the state ``linearised`` under
-    ``linearised_load``; ``sharp`` says that factorizations went over to double precision,
-    ``loose_tolerance`` how good states on the way must be.
+    ``step`` long in the ``direction`` of the equilibrium's derivative with respect to the load.
     ``points``: the path so far; ``effort``: iterations, factorizations, load steps and refused
     steps so far.
     """
@@ -30,10 +28,7 @@ class Checkpoint:
     reached: State
     load: float
     step: float
-    linearised: State
-    linearised_load: float
-    sharp: bool
-    loose_tolerance: float
+    direction: State
     points: tuple[PathPoint, ...]
     effort: tuple[int, int, int, int]
 
@@ -58,32 +53,29 @@ class Checkpoint:
 
     def _arrays(self) -> dict[str, Any]:
         points = np.array([[np.nan if v is None else v for v in astuple(p)] for p in self.points])
-        numbers = np.array(
-            [self.load, self.step, self.linearised_load, self.sharp, self.loose_tolerance]
-        )
         states = {
             f"{name}_{field.name}": getattr(getattr(self, name), field.name)
-            for name in ("reached", "linearised")
+            for name in STATES
             for field in fields(State)
         }
+        numbers = np.array([self.load, self.step])
         return {"numbers": numbers, "points": points, "effort": np.array(self.effort), **states}
 
 
+STATES = ("reached", "direction")
+
+
 def _checkpoint(arrays: dict[str, Any]) -> Checkpoint:
-    load, step, linearised_load, sharp, loose_tolerance = (float(n) for n in arrays["numbers"])
-    reached, linearised = (
-        State(*(arrays[f"{name}_{field.name}"] for field in fields(State)))
-        for name in ("reached", "linearised")
+    load, step = (float(number) for number in arrays["numbers"])
+    reached, direction = (
+        State(*(arrays[f"{name}_{field.name}"] for field in fields(State))) for name in STATES
     )
     iterations, factorizations, steps, refused = (int(count) for count in arrays["effort"])
     return Checkpoint(
         reached=reached,
         load=load,
         step=step,
-        linearised=linearised,
-        linearised_load=linearised_load,
-        sharp=bool(sharp),
-        loose_tolerance=loose_tolerance,
+        direction=direction,
         points=tuple(_point(row) for row in arrays["points"]),
         effort=(iterations, factorizations, steps, refused),
     )

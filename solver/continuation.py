@@ -20,7 +20,7 @@ from solver.arrays import Reals
 from solver.assembly import Equilibrium
 from solver.bordered import Station, corrected, station
 from solver.models import Problem
-from solver.newton import Listener, Newton, SolverOptions
+from solver.newton import FIRST_STEP, Listener, Newton, SolverOptions
 from solver.results import PathPoint
 from solver.state import State
 
@@ -70,9 +70,9 @@ def trace(
 
     ``pressure`` (MPa) and the problem's loads and prescribed motions are the whole load, 1; the
     path ends where that is passed, where ``until`` says so of a point, after ``steps`` steps, or
-    where no step succeeds. The first step is ``options.first_step`` of the load; none moves the
-    nodes by more than ``longest_step`` body diagonals (root mean square). Raises ``ValueError``
-    for a pressure that is not finite, and for no steps or steps of no length.
+    where no step succeeds. The first step is ``options.first_step`` of the load, or a tenth; none
+    moves the nodes by more than ``longest_step`` body diagonals (root mean square). Raises
+    ``ValueError`` for a pressure that is not finite, and for no steps or steps of no length.
     """
     if not np.isfinite(pressure):
         raise ValueError(f"pressure must be a finite number of MPa, got {pressure}.")
@@ -82,13 +82,12 @@ def trace(
             "at least 1."
         )
     newton = Newton(problem, float(pressure), options or SolverOptions(), listener)
-    newton.sharpen()
     walker = Walker.of(newton, longest_step)
     points: list[PathPoint] = []
     states: list[State] = []
     limits: list[Limit] = []
     message = "no further step succeeds."
-    first = walker.start(State.zero(problem), 0.0, newton.options.first_step)
+    first = walker.start(State.zero(problem), 0.0, newton.options.first_step or FIRST_STEP)
     for number, (arc, limit) in enumerate(walker.along(first)):
         points.append(limit.point if limit else walker.point(arc))
         states.append(arc.station.state)
@@ -107,7 +106,6 @@ def trace(
 
 def limit_ahead(newton: Newton, state: State, load: float, steps: int) -> Limit | None:
     """The first limit beyond a state, if it is within so many steps."""
-    newton.sharpen()
     walker = Walker.of(newton, LONGEST_STEP)
     arcs = walker.along(walker.start(state, load, newton.options.smallest_step))
     return next((limit for _, limit in islice(arcs, steps + 1) if limit), None)

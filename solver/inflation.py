@@ -18,7 +18,7 @@ from solver.assembly import Equilibrium
 from solver.bordered import Station, corrected, station
 from solver.loading import Walk, solution_of
 from solver.models import Problem
-from solver.newton import Listener, Newton, SolverOptions
+from solver.newton import FIRST_STEP, Listener, Newton, SolverOptions
 from solver.pressure import enclosed_volume
 from solver.results import PathPoint, Solution
 from solver.state import State
@@ -43,10 +43,9 @@ def inflate(
     if problem.loads or problem.supports.prescribed or not problem.pressurised:
         raise ValueError("inflate: the problem's only load must be the pressure in a cavity.")
     newton = Newton(problem, 1.0, options or SolverOptions(), listener)
-    newton.sharpen()
     leg = _Leg(station(newton, State.zero(problem), 0.0), _volume(newton, State.zero(problem)))
     path: tuple[PathPoint, ...] = (newton.point(leg.reached.state, 0.0, 0, True),)
-    leg = replace(leg, step=newton.options.first_step * abs(volume - leg.volume))
+    leg = replace(leg, step=(newton.options.first_step or FIRST_STEP) * abs(volume - leg.volume))
     for target in _targets(leg.volume, volume, stops):
         leg = _to(newton, target, leg)
         path += leg.points

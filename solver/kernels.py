@@ -434,6 +434,40 @@ def displacement_gradient(u: Reals, gradients: Reals, h: Reals) -> None:
 
 
 @njit(cache=True, error_model="numpy")
+def deformation_gradient(h: Reals, f: Reals) -> None:
+    """f (3, 3) = 1 + h."""
+    for i in range(3):
+        for j in range(3):
+            f[i, j] = h[i, j] + (1.0 if i == j else 0.0)
+
+
+@njit(cache=True, error_model="numpy")
+def spatial_gradients(gradients: Reals, inverse: Reals, g: Reals) -> None:
+    """Shape gradients g (10, 3) on the deformed body: ``gradients`` times F^-1."""
+    for a in range(10):
+        for i in range(3):
+            g[a, i] = (
+                gradients[a, 0] * inverse[0, i]
+                + gradients[a, 1] * inverse[1, i]
+                + gradients[a, 2] * inverse[2, i]
+            )
+
+
+@njit(cache=True, error_model="numpy")
+def push_forward(f: Reals, s: Reals, tau: Reals) -> None:
+    """tau (6,) = f s f^T of a symmetric s (6,), both in Voigt order xx, yy, zz, xy, yz, zx."""
+    fs = np.empty((3, 3))
+    for i in range(3):
+        fs[i, 0] = f[i, 0] * s[0] + f[i, 1] * s[3] + f[i, 2] * s[5]
+        fs[i, 1] = f[i, 0] * s[3] + f[i, 1] * s[1] + f[i, 2] * s[4]
+        fs[i, 2] = f[i, 0] * s[5] + f[i, 1] * s[4] + f[i, 2] * s[2]
+    for c in range(6):
+        i = c if c < 3 else c - 3
+        j = c if c < 3 else (c - 2) % 3
+        tau[c] = fs[i, 0] * f[j, 0] + fs[i, 1] * f[j, 1] + fs[i, 2] * f[j, 2]
+
+
+@njit(cache=True, error_model="numpy")
 def element_energy(solid: Solid, x: Reals, u: Reals, q: Reals) -> tuple[float, float]:
     """Pi of one element, N mm, and its volume, mm^3; NaN where J <= 0. See the module's text."""
     gradients = np.empty((10, 3))
@@ -462,13 +496,21 @@ def element_energy(solid: Solid, x: Reals, u: Reals, q: Reals) -> tuple[float, f
 
 @njit(cache=True, error_model="numpy")
 def element_response(
-    solid: Solid, x: Reals, u: Reals, q: Reals, tangent: bool, r: Reals, k: Reals
+    solid: Solid,
+    x: Reals,
+    u: Reals,
+    q: Reals,
+    geometric: Reals,
+    tangent: bool,
+    r: Reals,
+    k: Reals,
 ) -> float:
     """Residual r (34,) and, if ``tangent``, the upper half of the tangent k (34, 34).
 
     ``x``, ``u`` (10, 3) reference coordinates and displacements, mm; ``q`` (4,) pressures, MPa.
-    Returns the smallest J of the quadrature points; unless it is positive r and k are
-    meaningless.
+    ``geometric`` (points, 6): second Piola-Kirchhoff stress of the geometric part of the tangent,
+    MPa, or (0, 6) for the element's own. Returns the smallest J of the quadrature points; unless
+    it is positive r and k are meaningless.
     """
     gradients = np.empty((10, 3))
     g = np.empty((10, 3))
@@ -495,17 +537,9 @@ def element_response(
         if not jacobian > 0.0:
             return jacobian
         smallest = min(smallest, jacobian)
-        for i in range(3):
-            for j in range(3):
-                f[i, j] = h[i, j] + (1.0 if i == j else 0.0)
+        deformation_gradient(h, f)
         invert(f, inverse)
-        for a in range(10):
-            for i in range(3):
-                g[a, i] = (
-                    gradients[a, 0] * inverse[0, i]
-                    + gradients[a, 1] * inverse[1, i]
-                    + gradients[a, 2] * inverse[2, i]
-                )
+        spatial_gradients(gradients, inverse, g)
         pressure = 0.0
         for v in range(4):
             pressure += solid.linear[point, v] * q[v]
@@ -523,6 +557,8 @@ def element_response(
         for v in range(4):
             r[30 + v] -= dv * solid.linear[point, v] * (change - swelling)
         if tangent:
+            if geometric.shape[0] > 0:
+                push_forward(f, geometric[point], tau)
             _add_displacement_tangent(g, tau, stiffness, dv, k)
             _add_pressure_tangent(g, solid.linear[point], dv * jacobian, dv * flexibility, k)
     return smallest
@@ -576,6 +612,7 @@ def assemble_chunk(
     chunk: int,
     displacement: Reals,
     pressure: Reals,
+    geometric: Reals,
     tangent: bool,
     residual: Reals,
     values: Reals,
@@ -596,7 +633,7 @@ def assemble_chunk(
                 u[a, i] = displacement[node, i]
         for v in range(4):
             q[v] = pressure[solid.tet_vertices[element, v]]
-        jacobians[element] = element_response(solid, x, u, q, tangent, r, k)
+        jacobians[element] = element_response(solid, x, u, q, geometric[element], tangent, r, k)
         scatter(r, k, places.dofs[element], places.entries[element], 1.0, tangent, residual, values)
 
 
@@ -606,6 +643,7 @@ def assemble(
     places: Places,
     displacement: Reals,
     pressure: Reals,
+    geometric: Reals,
     tangent: bool,
     residual: Reals,
     values: Reals,
@@ -613,7 +651,8 @@ def assemble(
 ) -> None:
     """Add the elements' residuals to ``residual`` and tangents to the CSR ``values``.
 
-    ``displacement`` (n, 3), ``pressure`` (v,). ``jacobians`` (e,) takes each element's smallest J.
+    ``displacement`` (n, 3), ``pressure`` (v,), ``geometric`` (e, q, 6) as for ``element_response``,
+    or (e, 0, 6). ``jacobians`` (e,) takes each element's smallest J.
     Chunks of a colour go in parallel, colours one after the other: the sums do not depend on the
     number of threads.
     """
@@ -621,12 +660,30 @@ def assemble(
         first, end = places.colours[colour], places.colours[colour + 1]
         if end - first == 1:  # waking the other threads would cost more than it saves
             assemble_chunk(
-                solid, places, first, displacement, pressure, tangent, residual, values, jacobians
+                solid,
+                places,
+                first,
+                displacement,
+                pressure,
+                geometric,
+                tangent,
+                residual,
+                values,
+                jacobians,
             )
         else:
             for c in prange(first, end):
                 assemble_chunk(
-                    solid, places, c, displacement, pressure, tangent, residual, values, jacobians
+                    solid,
+                    places,
+                    c,
+                    displacement,
+                    pressure,
+                    geometric,
+                    tangent,
+                    residual,
+                    values,
+                    jacobians,
                 )
 
 
@@ -679,6 +736,7 @@ def assemble_plane(
     ``heights`` (n,): h of the nodes on the plane, NaN for all others. ``dofs`` (p, 36) and
     ``entries`` (p, 666) end with the unknowns of the plane.
     """
+    own_stress = np.empty((0, 6))
     r = np.empty(UNKNOWNS + 2)
     k = np.empty((UNKNOWNS + 2, UNKNOWNS + 2))
     for row in range(elements.size):
@@ -688,7 +746,7 @@ def assemble_plane(
         k[:, :] = 0.0
         jacobians[element] = element_response(
             solid, solid.nodes[nodes], displacement[nodes], pressure[solid.tet_vertices[element]],
-            tangent, r[:UNKNOWNS], k[:UNKNOWNS, :UNKNOWNS],
+            own_stress, tangent, r[:UNKNOWNS], k[:UNKNOWNS, :UNKNOWNS],
         )  # fmt: skip
         mirror_upper(k)
         for a in range(10):
@@ -742,6 +800,84 @@ def total_energy(solid: Solid, displacement: Reals, pressure: Reals) -> tuple[fl
         energy += part
         volume += size
     return energy, volume
+
+
+@njit(cache=True, error_model="numpy", parallel=True)
+def extrapolated_stress(
+    solid: Solid,
+    displacement: Reals,
+    pressure: Reals,
+    displacement_step: Reals,
+    pressure_step: Reals,
+    extrapolated: Reals,
+) -> None:
+    """Second Piola-Kirchhoff stress after a step, to first order in it, (e, q, 6), MPa.
+
+    At the quadrature points, Voigt order xx, yy, zz, xy, yz, zx: S + dS, where F dS F^T is the
+    Lie derivative of the Kirchhoff stress, D : sym(grad du) - J dq 1.
+    """
+    for element in prange(solid.tets.shape[0]):
+        x = np.empty((10, 3))
+        u = np.empty((10, 3))
+        du = np.empty((10, 3))
+        gradients = np.empty((10, 3))
+        g = np.empty((10, 3))
+        h = np.empty((3, 3))
+        f = np.empty((3, 3))
+        inverse = np.empty((3, 3))
+        b = np.empty((3, 3))
+        vectors = np.empty((3, 3))
+        logs = np.empty(3)
+        stress = np.empty(3)
+        normal = np.empty((3, 3))
+        shear = np.empty(3)
+        rate = np.empty((3, 3))
+        for a in range(10):
+            for i in range(3):
+                x[a, i] = solid.nodes[solid.tets[element, a], i]
+                u[a, i] = displacement[solid.tets[element, a], i]
+                du[a, i] = displacement_step[solid.tets[element, a], i]
+        for point in range(solid.weights.size):
+            reference_gradients(x, solid.gradients[point], gradients)
+            displacement_gradient(u, gradients, h)
+            jacobian = 1.0 + volume_change(h)
+            deformation_gradient(h, f)
+            invert(f, inverse)
+            spatial_gradients(gradients, inverse, g)
+            q = 0.0
+            dq = 0.0
+            for v in range(4):
+                q += solid.linear[point, v] * pressure[solid.tet_vertices[element, v]]
+                dq += solid.linear[point, v] * pressure_step[solid.tet_vertices[element, v]]
+            spectrum(h, b, vectors, logs)
+            principal_response(
+                logs, b, -q * jacobian, solid.mu, solid.alpha, solid.higher,
+                stress, normal, shear,
+            )  # fmt: skip
+            displacement_gradient(du, g, rate)
+            rotated = vectors.T @ rate @ vectors
+            for i in range(3):
+                stress[i] -= dq * jacobian
+                for j in range(3):
+                    stress[i] += normal[i, j] * rotated[j, j]
+            pulled_back(inverse @ vectors, stress, shear, rotated, extrapolated[element, point])
+
+
+@njit(cache=True, error_model="numpy")
+def pulled_back(axes: Reals, stress: Reals, shear: Reals, rate: Reals, s: Reals) -> None:
+    """s (6,) in Voigt order from normal and shear stresses along ``axes`` (3, 3), in columns.
+
+    Shear stresses are ``shear`` (3,) of the pairs 12, 23, 31 times the shear of ``rate`` (3, 3).
+    """
+    for c in range(6):
+        p = c if c < 3 else c - 3
+        q = c if c < 3 else (c - 2) % 3
+        s[c] = 0.0
+        for i in range(3):
+            j = (i + 1) % 3
+            mixed = axes[p, i] * axes[q, j] + axes[q, i] * axes[p, j]
+            s[c] += stress[i] * axes[p, i] * axes[q, i]
+            s[c] += shear[i] * (rate[i, j] + rate[j, i]) * mixed
 
 
 @njit(cache=True, error_model="numpy", parallel=True)

@@ -10,11 +10,10 @@ from pathlib import Path
 from typing import Any, Protocol
 
 import numpy as np
-from numpy.linalg import norm
 from numpy.typing import NDArray
 
 from solver.arrays import Integers, Reals
-from solver.sparsity import Pattern, is_odd, multiply_symmetric
+from solver.sparsity import Pattern, is_odd
 
 
 class LinearSolver(Protocol):
@@ -24,7 +23,6 @@ class LinearSolver(Protocol):
     side. ``factorize`` raises ``SingularMatrix`` where the factorization breaks down.
     ``negative_pivots`` counts the negative eigenvalues of the last matrix; None where unknown.
     ``odd_negative`` says whether their number is odd, which may be known where it is not.
-    ``doubtful`` is True where the last solution is known to be too far off to correct anything.
     """
 
     name: str
@@ -33,8 +31,6 @@ class LinearSolver(Protocol):
     def negative_pivots(self) -> int | None: ...
     @property
     def odd_negative(self) -> bool | None: ...
-    @property
-    def doubtful(self) -> bool: ...
 
     def analyze(self, pattern: Pattern) -> None: ...
     def factorize(self, values: Reals) -> None: ...
@@ -54,42 +50,29 @@ PARDISO_PARAMETERS = {
     34: 2,  # the same bits in every run, whatever the threads do
     35: 1,  # indices start at 0
 }
-TWO_LEVEL, SINGLE_PRECISION = 24, 28
+TWO_LEVEL = 24
 LARGE = 60_000
 """Unknowns from which on the two-level parallel factorization repays its longer analysis."""
 
-DOUBTFUL = 0.2
-"""Share of the right-hand side that a solution in single precision may leave before refinement.
-
-Refinement squares it. Unit cells leave up to 0.001, Prototype 1 as a half up to 0.09, bars 50 times
-as long as thick more than 1 (measured).
-"""
-
 
 class Pardiso:
-    """MKL's PARDISO, L D L^T with Bunch-Kaufman pivoting (mtype -2).
+    """MKL's PARDISO, L D L^T with Bunch-Kaufman pivoting (mtype -2), in double precision.
 
-    In ``single`` precision a factorization takes three fifths of the time (measured) and half of
-    the memory. Solutions then have one to four right digits; one step of refinement with residuals
-    in double precision adds as many again. On very slender bodies there is none to begin with.
+    In single precision a factorization takes three fifths of the time, but what its solutions get
+    wrong is the softest mode of the body, which makes most of a step (``docs/linear-solves.md``).
     """
 
-    doubtful = False
+    name = "pardiso"
 
-    def __init__(self, single: bool = False) -> None:
-        self.name = "pardiso-single" if single else "pardiso"
+    def __init__(self) -> None:
         self.negative_pivots: int | None = None
         self._pardiso = _load_mkl().pardiso
         self._handle = np.zeros(64, np.int64)
         self._parameters = np.zeros(64, np.int32)
         for number, value in PARDISO_PARAMETERS.items():
             self._parameters[number - 1] = value
-        self._parameters[SINGLE_PRECISION - 1] = single
-        self._precision = np.float32 if single else np.float64
-        self._single = single
-        self._exact = np.zeros(0)
         self._pattern: Pattern | None = None
-        self._values = np.zeros(0, self._precision)
+        self._values = np.zeros(0)
         weakref.finalize(self, _release, self._pardiso, self._handle, self._parameters)
 
     @property
@@ -101,46 +84,32 @@ class Pardiso:
         """Fill-reducing ordering and symbolic factorization."""
         self._pattern = pattern
         self._parameters[TWO_LEVEL - 1] = len(pattern.indptr) > LARGE
-        self._values = np.zeros(len(pattern.indices), self._precision)
+        self._values = np.zeros(len(pattern.indices))
         self._call(11)
 
     def factorize(self, values: Reals) -> None:
         """Numerical factorization of the matrix with the given CSR values."""
-        self._exact = values
-        self._values = values.astype(self._precision, copy=False)
+        self._values = values
         self._call(22)
         self.negative_pivots = int(self._parameters[22])
 
     def solve(self, right_hand_side: Reals) -> Reals:
-        """Solve with the last factorization; refine what single precision leaves."""
-        solution = self._call(33, right_hand_side)
-        if not self._single:
-            return solution
-        residual = right_hand_side - self._pattern_times(solution)
-        self.doubtful = bool(norm(residual) > DOUBTFUL * norm(right_hand_side))
-        return solution + self._call(33, residual)
-
-    def _pattern_times(self, vector: Reals) -> Reals:
-        assert self._pattern is not None
-        product = np.zeros(len(vector))
-        multiply_symmetric(
-            self._pattern.indptr, self._pattern.indices, self._exact, vector, product
-        )
-        return product
+        """Solve with the last factorization."""
+        return self._call(33, right_hand_side)
 
     def _call(self, phase: int, rhs: Reals | None = None) -> Reals:
         pattern = self._pattern
         if pattern is None:
             raise RuntimeError("PARDISO needs analyze() before anything else.")
-        solution = np.zeros(len(pattern.indptr) - 1, self._precision)
-        given = solution if rhs is None else np.ascontiguousarray(rhs, self._precision)
+        solution = np.zeros(len(pattern.indptr) - 1)
+        given = solution if rhs is None else np.ascontiguousarray(rhs, np.float64)
         error = _pardiso(
             self._pardiso, self._handle, phase, self._values, pattern.indptr,
             pattern.indices, self._parameters, given, solution,
         )  # fmt: skip
         if error:
             raise SingularMatrix(f"PARDISO failed with error {error} in phase {phase}")
-        return solution.astype(np.float64, copy=False)
+        return solution
 
 
 def _load_mkl() -> ctypes.CDLL:
@@ -163,14 +132,14 @@ def _pardiso(
     function: Any,
     handle: NDArray[np.int64],
     phase: int,
-    values: NDArray[Any],
+    values: Reals,
     indptr: Integers,
     indices: Integers,
     parameters: Integers,
-    rhs: NDArray[Any],
-    solution: NDArray[Any],
+    rhs: Reals,
+    solution: Reals,
 ) -> int:
-    """One call of MKL's ``pardiso`` on reals of either precision; returns its error number."""
+    """One call of MKL's ``pardiso``; returns its error number."""
     integers = [ctypes.c_int32(value) for value in (1, 1, -2, phase, len(indptr) - 1, 1, 0, 0)]
     maxfct, mnum, mtype, c_phase, n, nrhs, verbosity, error = map(ctypes.byref, integers)
 
@@ -200,7 +169,6 @@ class SuperLU:
     name = "superlu"
     negative_pivots: int | None = None
     odd_negative: bool | None = None
-    doubtful = False
 
     def analyze(self, pattern: Pattern) -> None:
         """Build the full matrix's pattern and where its values come from."""
@@ -239,7 +207,7 @@ class SuperLU:
         return solution + self._factor.solve(right_hand_side - self._full @ solution)
 
 
-NAMES = ("auto", "pardiso", "pardiso-single", "superlu")
+NAMES = ("auto", "pardiso", "superlu")
 
 
 def linear_solver(name: str = "auto") -> LinearSolver:
@@ -253,18 +221,8 @@ def linear_solver(name: str = "auto") -> LinearSolver:
     if name == "superlu":
         return SuperLU()
     try:
-        return Pardiso(single=name == "pardiso-single")
+        return Pardiso()
     except ImportError:
         if name != "auto":
             raise
-        return SuperLU()
-
-
-def quick_solver(name: str) -> LinearSolver:
-    """What Newton starts with: for ``auto`` single precision where there is PARDISO."""
-    if name != "auto":
-        return linear_solver(name)
-    try:
-        return linear_solver("pardiso-single")
-    except ImportError:
         return SuperLU()

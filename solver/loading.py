@@ -12,7 +12,7 @@ import numpy as np
 from solver.arrays import Reals
 from solver.checkpoint import Checkpoint
 from solver.models import Problem
-from solver.newton import Attempt, Effort, Listener, Newton, SolverOptions
+from solver.newton import FIRST_STEP, Attempt, Effort, Listener, Newton, SolverOptions
 from solver.results import PathPoint, Solution
 from solver.state import State
 
@@ -111,27 +111,34 @@ class Leg:
 
 def _from_zero(newton: Newton) -> tuple[Leg, tuple[PathPoint, ...]]:
     """Before the first step: the unloaded body."""
-    zero = State.zero(newton.problem)
-    equilibrium = newton.evaluate(zero, 0.0)
-    newton.factorize(equilibrium, zero, 0.0)
-    attempt = Attempt(zero, 0, rate=newton.rate(zero, 0.0, equilibrium))
-    return Leg(attempt, 0.0, newton.options.first_step), (
-        newton.point(zero, 0.0, 0, newton.stable),
-    )
+    start = _departing(newton, State.zero(newton.problem), 0.0)
+    path = (newton.point(start.state, 0.0, 0, newton.stable),)
+    return Leg(start, 0.0, _first_step(newton, start)), path
+
+
+def _first_step(newton: Newton, start: Attempt) -> float:
+    """The first step asked for, or one that suits the body's motion, as a fraction of the load."""
+    if newton.options.first_step is not None or not newton.slender:
+        return newton.options.first_step or FIRST_STEP
+    assert start.direction is not None
+    speed = float(np.abs(newton.linear(start.state, start.direction)).max())
+    return min(1.0, newton.problem.mesh.size / speed) if speed else 1.0
+
+
+def _departing(newton: Newton, state: State, load: float) -> Attempt:
+    """A state in equilibrium with the direction in which the walk goes on from it."""
+    equilibrium = newton.evaluate(state, load)
+    newton.factorize(equilibrium)
+    return Attempt(state, 0, direction=newton.direction(state, load, equilibrium))
 
 
 def _resumed(newton: Newton, checkpoint: Checkpoint) -> tuple[Leg, tuple[PathPoint, ...]]:
-    """After the step of a checkpoint, with the factorization that was at hand there."""
-    reached, load = checkpoint.reached, checkpoint.load
+    """After the step of a checkpoint."""
+    reached = checkpoint.reached
     _check_shapes(newton, reached.displacement, reached.hydrostatic_pressure)
-    newton.loose_tolerance = checkpoint.loose_tolerance
-    if checkpoint.sharp:
-        newton.sharpen()
-    linearised = checkpoint.linearised, checkpoint.linearised_load
-    newton.factorize(newton.evaluate(*linearised), *linearised)
     newton.effort = Effort(*checkpoint.effort)
-    rate = newton.rate(reached, load, newton.evaluate(reached, load, tangent=False))
-    return Leg(Attempt(reached, 0, rate=rate), load, checkpoint.step), checkpoint.points
+    attempt = Attempt(reached, 0, direction=checkpoint.direction)
+    return Leg(attempt, checkpoint.load, checkpoint.step), checkpoint.points
 
 
 def _walk(newton: Newton, stops: tuple[float, ...], leg: Leg, points: Sequence[PathPoint]) -> Walk:
@@ -172,71 +179,56 @@ STEPS_TO_A_LIMIT = 12
 def _walk_to(newton: Newton, end: float, leg: Leg, path: tuple[PathPoint, ...] = ()) -> Leg:
     """Adaptive load steps, up or down: predict along the tangent, correct, grow or cut the step.
 
-    Needs a factorization near the state it starts from. ``path``: what came before, for
-    checkpoints.
+    ``path``: what came before, for checkpoints.
     """
     options = newton.options
     reached, load, step = leg.reached, leg.load, leg.step
     points: tuple[PathPoint, ...] = ()
-    direction, refusals, former = newton.direction(reached.rate), 0, (reached, load, points)
+    refusals = 0
     while load != end:
         last = abs(end - load) <= step * (1 + 1e-9)
         target = end if last else load + math.copysign(step, end - load)
-        exact = last or abs(target - load) < SHARPENED
-        attempt = _step(newton, reached.state, direction, load, target, exact)
+        attempt = _step(newton, reached, load, target, last)
         if attempt.failure:
             step = options.cut * abs(target - load)
             if step < options.smallest_step:
                 return Leg(reached, load, step, points, attempt.failure)
-            if step < SHARPENED:
-                newton.sharpen()
             refusals += 1
             if refusals == 2:  # the state was not good enough, or the direction from it
-                reached, load, points = _settled(newton, (reached, load, points), former)
-                direction = newton.direction(reached.rate)
+                reached, points = _settled(newton, reached, load, points)
             continue
-        former = reached, load, points
         step, refusals = max(step, options.growth * abs(target - load)), 0
         reached, load = attempt, target
         points += (newton.point(attempt.state, load, attempt.iterations, newton.stable),)
-        _report(newton, attempt.state, load, step, (*path, *points))
-        if load != end:
-            direction = newton.direction(attempt.rate)
+        _report(newton, attempt, load, step, (*path, *points))
     return Leg(reached, load, step, points)
 
 
-def _step(
-    newton: Newton, state: State, direction: State, load: float, target: float, exact: bool
-) -> Attempt:
+def _step(newton: Newton, reached: Attempt, load: float, target: float, last: bool) -> Attempt:
     """One step from a state to a load, counted and told of if it is refused."""
-    guess = newton.predicted(state, direction, load, target)
+    if reached.direction is None:
+        reached = _departing(newton, reached.state, load)
+    exact = last or abs(target - load) < SHORT
     tolerance = newton.options.tolerance if exact else newton.loose_tolerance
-    attempt = newton.correct(guess, target, tolerance)
-    failure = attempt.failure or _leapt(newton, state, guess, attempt.state)
+    guess = newton.predicted(reached, load, target)
+    attempt = newton.correct(guess, target, tolerance, onward=not last)
+    failure = attempt.failure or _leapt(newton, reached.state, guess, attempt.state)
     if failure:
         newton.effort.refused_steps += 1
-        newton.notify("refused", target, state, attempt.iterations, np.inf)
+        newton.notify("refused", target, reached.state, attempt.iterations, np.inf)
         return replace(attempt, failure=failure)
     newton.effort.load_steps += 1
     return attempt
 
 
-Stage = tuple[Attempt, float, tuple[PathPoint, ...]]
-"""A state on the way, its load, and the points up to it."""
-
-
-def _settled(newton: Newton, last: Stage, former: Stage) -> Stage:
-    """The later of two stages whose state bears the full tolerance, corrected to it.
-
-    Its factorization is at hand then, for the direction to go on in. A state that was taken for
-    good and is not makes the rest of the walk more careful.
-    """
-    for reached, load, points in (last, former):
-        better = newton.correct(reached.state, load, newton.options.tolerance)
-        if not better.failure:
-            return better, load, _corrected(newton, better, load, points)
-        newton.take_care()
-    return last
+def _settled(
+    newton: Newton, reached: Attempt, load: float, points: tuple[PathPoint, ...]
+) -> tuple[Attempt, tuple[PathPoint, ...]]:
+    """A state corrected to the full tolerance, if it bears that, with the points up to it."""
+    better = newton.correct(reached.state, load, newton.options.tolerance, onward=True)
+    if better.failure:
+        return reached, points
+    return better, _corrected(newton, better, load, points)
 
 
 def _corrected(
@@ -249,8 +241,8 @@ def _corrected(
     return (*points[:-1], newton.point(better.state, load, spent, newton.stable))
 
 
-SHARPENED = 0.03
-"""A step cut below this fraction of the load asks for double precision and the full tolerance."""
+SHORT = 0.03
+"""A step cut below this fraction of the load asks for the full tolerance."""
 
 LEAP = 4.0
 """A state so many times further away than predicted lies on another branch."""
@@ -270,24 +262,16 @@ def _leapt(newton: Newton, before: State, predicted: State, found: State) -> str
 
 
 def _report(
-    newton: Newton, state: State, load: float, step: float, path: tuple[PathPoint, ...]
+    newton: Newton, reached: Attempt, load: float, step: float, path: tuple[PathPoint, ...]
 ) -> None:
-    """Tell the listener of a step, with a checkpoint to go on from."""
+    """Tell the listener of a step, with a checkpoint to go on from if the walk goes on."""
     if newton.listener is None:
         return
-    effort = newton.effort
-    checkpoint = Checkpoint(
-        reached=state,
-        load=load,
-        step=step,
-        linearised=newton.linearised,
-        linearised_load=newton.linearised_load,
-        sharp=newton.sharp,
-        loose_tolerance=newton.loose_tolerance,
-        points=path,
-        effort=astuple(effort),
-    )
-    newton.notify("step", load, state, path[-1].iterations, 0.0, checkpoint)
+    checkpoint = None
+    if reached.direction is not None:
+        effort = astuple(newton.effort)
+        checkpoint = Checkpoint(reached.state, load, step, reached.direction, path, effort)
+    newton.notify("step", load, reached.state, path[-1].iterations, 0.0, checkpoint)
 
 
 def _start(newton: Newton, displacement: Reals, pressure: Reals) -> State:

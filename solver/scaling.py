@@ -53,11 +53,6 @@ class Scaled:
         """As for A."""
         return self._solver.odd_negative
 
-    @property
-    def doubtful(self) -> bool:
-        """Whether the last solution is too far off to correct anything."""
-        return self._solver.doubtful
-
     def analyze(self, pattern: Pattern) -> None:
         """Also where every entry's factor is."""
         rows = np.repeat(self._scale, np.diff(pattern.indptr))

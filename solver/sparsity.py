@@ -11,7 +11,7 @@ import numpy as np
 from numba import njit, prange
 from numpy.typing import NDArray
 
-from solver.arrays import Integers, Reals
+from solver.arrays import Integers
 from solver.mesh import Mesh
 
 
@@ -68,21 +68,6 @@ def incidence(table: Integers, size: int) -> tuple[Integers, Integers]:
     flat = flat[flat >= 0]
     pointer = np.concatenate([[0], np.cumsum(np.bincount(flat, minlength=size))])
     return pointer.astype(np.int32), rows[np.argsort(flat, kind="stable")]
-
-
-@njit(cache=True, error_model="numpy")
-def multiply_symmetric(
-    indptr: Integers, indices: Integers, values: Reals, vector: Reals, product: Reals
-) -> None:
-    """Add A ``vector`` to ``product`` (n,), A given by the upper triangle in CSR."""
-    for row in range(product.size):
-        total = 0.0
-        for place in range(indptr[row], indptr[row + 1]):
-            column = indices[place]
-            total += values[place] * vector[column]
-            if column != row:
-                product[column] += values[place] * vector[row]
-        product[row] += total
 
 
 @njit(cache=True)

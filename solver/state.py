@@ -16,11 +16,15 @@ class State:
 
     ``plane``: tilt (rad) and shift (mm) of the moving plane, zeros without one. Increments have
     the same form; on a moving plane the z of their displacement is the change of height in it.
+    ``geometric_stress`` (e, q, 6): second Piola-Kirchhoff stress at the integration points that the
+    geometric part of the tangent is formed with, MPa (see ``solver.newton``); if empty, that of the
+    displacement.
     """
 
     displacement: Reals
     hydrostatic_pressure: Reals
     plane: Reals = field(default_factory=lambda: np.zeros(2))
+    geometric_stress: Reals = field(default_factory=lambda: np.zeros((0, 0, 6)))
 
     @staticmethod
     def zero(problem: Problem) -> State:

@@ -38,6 +38,7 @@ from solver import (
 
 BAR = box_mesh((3, 1, 1), (3.0, 1.0, 0.8), distortion=0.2)
 CLOSE = SolverOptions(tolerance=1e-8)
+STEPS = SolverOptions(first_step=0.1)
 
 
 def history() -> tuple[Finding, ...]:
@@ -48,7 +49,7 @@ def history() -> tuple[Finding, ...]:
         "steps of 1 %, growing by 1.3": SolverOptions(first_step=0.05, growth=1.3, tolerance=1e-8),
         "never an old factorization": SolverOptions(reuse=0.0, tolerance=1e-8),
         "tight in between": SolverOptions(loose_tolerance=1e-7, tolerance=1e-8),
-        "double precision": SolverOptions(linear_solver="pardiso", tolerance=1e-8),
+        "SuperLU": SolverOptions(linear_solver="superlu", tolerance=1e-8),
     }
     usual = solved(problem, pressure, CLOSE)
     ends = [solved(problem, pressure, options) for options in ways.values()]
@@ -150,13 +151,13 @@ class Interruption(Exception):
 def resumed() -> tuple[Finding, ...]:
     """Broken off after each step, written down, read, and gone on with."""
     problem, pressure = actuator(1), 0.1
-    whole = solve(problem, pressure)
+    whole = solve(problem, pressure, STEPS)
     ends = [_broken_off(problem, pressure, steps) for steps in range(1, whole.load_steps)]
     same = [_same_bits(end, whole) for end in ends]
     return (
         exactly("runs resumed", len(ends), whole.load_steps - 1),
         exactly("of them equal to the last bit", sum(same), len(same)),
-        true("and so is a second run", _same_bits(solve(problem, pressure), whole)),
+        true("and so is a second run", _same_bits(solve(problem, pressure, STEPS), whole)),
     )
 
 
@@ -171,11 +172,11 @@ def _broken_off(problem: Problem, pressure: float, steps: int) -> Solution:
 
     with TemporaryDirectory() as folder:
         try:
-            solve(problem, pressure, listener=listener)
+            solve(problem, pressure, STEPS, listener)
         except Interruption:
             seen[-1].save(Path(folder) / "walk.npz")
         checkpoint = Checkpoint.load_from(Path(folder) / "walk.npz")
-    return solve(problem, pressure, resume=checkpoint)
+    return solve(problem, pressure, STEPS, resume=checkpoint)
 
 
 def _same_bits(one: Solution, other: Solution) -> bool:

@@ -37,7 +37,8 @@ def test_the_half_actuator_bends_as_independent_codes_say(half_actuator: Problem
     assert solution.rotation == pytest.approx(212.41, abs=0.02)
     reference = np.load(DATA)["displacement"]
     assert abs(solution.displacement - reference).max() < 1e-3
-    assert solution.factorizations <= 26
+    # 9 in every mode of docs/linear-solves.md, and 9 or 10 for first steps from 0.34 to 0.65
+    assert solution.factorizations <= 12
     if solution.negative_pivots is not None:
         assert solution.negative_pivots == len(half_actuator.mesh.vertices)
 
