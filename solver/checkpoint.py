@@ -20,7 +20,8 @@ class Checkpoint:
     """A load step that was reached, and what the next one depends on.
 
     ``reached`` is in equilibrium at the fraction ``load`` of the asked load, the next step is
-    ``step`` long in the ``direction`` of the equilibrium's derivative with respect to the load.
+    ``step`` long in the ``direction`` of the equilibrium's derivative with respect to the load
+    (zero at the end of the walk).
     ``points``: the path so far; ``effort``: iterations, factorizations, load steps and refused
     steps so far.
     """

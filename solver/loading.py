@@ -264,13 +264,12 @@ def _leapt(newton: Newton, before: State, predicted: State, found: State) -> str
 def _report(
     newton: Newton, reached: Attempt, load: float, step: float, path: tuple[PathPoint, ...]
 ) -> None:
-    """Tell the listener of a step, with a checkpoint to go on from if the walk goes on."""
+    """Tell the listener of a step, with a checkpoint to go on from."""
     if newton.listener is None:
         return
-    checkpoint = None
-    if reached.direction is not None:
-        effort = astuple(newton.effort)
-        checkpoint = Checkpoint(reached.state, load, step, reached.direction, path, effort)
+    direction = reached.direction or State.zero(newton.problem)  # none at the asked load
+    effort = astuple(newton.effort)
+    checkpoint = Checkpoint(reached.state, load, step, direction, path, effort)
     newton.notify("step", load, reached.state, path[-1].iterations, 0.0, checkpoint)
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from case import Case, Order, Outcome, Row
 from measures import Points, observed_order
 from meshes import cell_mesh, renamed
-from structures import PRECISE, along, converged, node_at, reference, told
+from structures import along, converged, node_at, reference, told
 
 from solver import (
     Mesh,
@@ -32,9 +32,7 @@ SLENDERNESS = 120
 SLENDER = (30, 60, 120)
 """Lengths over thickness for the order at which the thin strip's limit is approached."""
 
-OPTIONS = SolverOptions(
-    linear_solver=PRECISE, maximum_iterations=60, tolerance=1e-8, loose_tolerance=1e-3
-)
+OPTIONS = SolverOptions(maximum_iterations=60, tolerance=1e-8, loose_tolerance=1e-3)
 
 
 def lengthwise(length: float) -> Points:

@@ -8,7 +8,7 @@ import numpy as np
 from case import Case, Outcome, Row
 from measures import Points
 from meshes import mapped_box
-from structures import PRECISE, node_at, reference, told
+from structures import node_at, reference, told
 
 from solver import Couple, Mesh, Ogden, PathPoint, Problem, SolverOptions, Supports, trace
 
@@ -21,7 +21,7 @@ LENGTH = 2.0
 YOUNG = 3.0
 """MPa, of neo-Hookean rubber with a shear modulus of 1 MPa, which is incompressible."""
 
-OPTIONS = SolverOptions(linear_solver=PRECISE, first_step=0.2)
+OPTIONS = SolverOptions(first_step=0.2)
 
 
 def half_slice(thickness: float, around: int) -> Mesh:

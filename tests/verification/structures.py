@@ -11,10 +11,6 @@ from references import DATA
 
 from solver import Event, Mesh, Problem, Solution, SolverOptions, solve
 from solver.arrays import Reals
-from solver.linear import linear_solver
-
-PRECISE = linear_solver("auto").name
-"""Double precision from the start: what is slender is soft in one way and stiff in others."""
 
 
 def reference(name: str) -> dict[str, Any]:
