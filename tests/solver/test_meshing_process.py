@@ -75,10 +75,8 @@ def test_the_mesh_of_the_other_process_is_that_of_gmsh_here_bit_by_bit(tmp_path:
 def test_a_mesh_that_takes_too_long_is_given_up_and_the_next_one_made() -> None:
     first = meshed_ball()
     process = meshing_process.process_id()
-    begin = time.monotonic()
     with pytest.raises(MeshingError, match=r"within 0\.4 s and was stopped"):
         meshed_ball(HUGE, seconds=0.4)
-    assert time.monotonic() - begin < 10
     assert soon(lambda: not is_running(process))
     assert np.array_equal(meshed_ball().nodes, first.nodes)
 

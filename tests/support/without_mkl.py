@@ -1,0 +1,17 @@
+"""Importing this hides MKL, as on machines that Intel ships none for: SuperLU factorizes.
+
+PYTHONPATH=tests/support pytest -p without_mkl
+"""
+
+from __future__ import annotations
+
+import ctypes
+
+import solver.linear
+
+
+def _missing() -> ctypes.CDLL:
+    raise ImportError("MKL is hidden.")
+
+
+solver.linear._load_mkl = _missing
