@@ -832,6 +832,8 @@ def extrapolated_stress(
         normal = np.empty((3, 3))
         shear = np.empty(3)
         rate = np.empty((3, 3))
+        turned = np.empty((3, 3))
+        axes = np.empty((3, 3))
         for a in range(10):
             for i in range(3):
                 x[a, i] = solid.nodes[solid.tets[element, a], i]
@@ -855,12 +857,29 @@ def extrapolated_stress(
                 stress, normal, shear,
             )  # fmt: skip
             displacement_gradient(du, g, rate)
-            rotated = vectors.T @ rate @ vectors
+            along_axes(rate, vectors, turned)
             for i in range(3):
                 stress[i] -= dq * jacobian
                 for j in range(3):
-                    stress[i] += normal[i, j] * rotated[j, j]
-            pulled_back(inverse @ vectors, stress, shear, rotated, extrapolated[element, point])
+                    stress[i] += normal[i, j] * turned[j, j]
+            product(inverse, vectors, axes)
+            pulled_back(axes, stress, shear, turned, extrapolated[element, point])
+
+
+@njit(cache=True, error_model="numpy")
+def product(a: Reals, b: Reals, ab: Reals) -> None:
+    """ab = a b of (3, 3) matrices."""
+    for i in range(3):
+        for j in range(3):
+            ab[i, j] = a[i, 0] * b[0, j] + a[i, 1] * b[1, j] + a[i, 2] * b[2, j]
+
+
+@njit(cache=True, error_model="numpy")
+def along_axes(m: Reals, vectors: Reals, turned: Reals) -> None:
+    """turned (3, 3) = V^T m V: the components of ``m`` along orthonormal ``vectors``, columns."""
+    mv = np.empty((3, 3))
+    product(m, vectors, mv)
+    product(vectors.T, mv, turned)
 
 
 @njit(cache=True, error_model="numpy")

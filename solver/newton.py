@@ -42,9 +42,9 @@ class SolverOptions:
     as much as would move the body by its own diagonal if it went on as it begins. A load counts as
     reached when the last Newton correction moved no node by more than ``tolerance``, in units of
     the body's diagonal; what is left after that correction is far smaller. Below the asked load
-    ``loose_tolerance`` will do, or a tenth of a mean edge of the mesh if that is less (a slender
-    body is stiff against what is small against its length), of a correction by the state's own
-    tangent. At the asked load a factorization is used again after a correction that was smaller
+    ``loose_tolerance`` will do, or a twentieth of a mean edge of the mesh if that is less (a
+    slender body is stiff against what is small against its length), of a correction by the state's
+    own tangent. At the asked load a factorization is used again after a correction that was smaller
     than the one before by the factor ``reuse``; 0 is never.
     """
 
@@ -105,7 +105,7 @@ FIRST_STEP = 0.1
 DIFFERENCE = 1e-6
 """Fraction of the load between the two residuals of a difference quotient."""
 
-EDGE_SHARE = 0.1
+EDGE_SHARE = 0.05
 """Share of a mean edge by which a state on the way may be off."""
 
 IMBALANCE = 1e-3
