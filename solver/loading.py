@@ -211,7 +211,7 @@ def _step(newton: Newton, reached: Attempt, load: float, target: float, last: bo
     exact = last or abs(target - load) < SHORT
     tolerance = newton.options.tolerance if exact else newton.loose_tolerance
     guess = newton.predicted(reached, load, target)
-    attempt = newton.correct(guess, target, tolerance, onward=not last)
+    attempt = newton.correct(guess, target, tolerance, onward=target != 1.0)
     failure = attempt.failure or _leapt(newton, reached.state, guess, attempt.state)
     if failure:
         newton.effort.refused_steps += 1
@@ -267,7 +267,7 @@ def _report(
     """Tell the listener of a step, with a checkpoint to go on from."""
     if newton.listener is None:
         return
-    direction = reached.direction or State.zero(newton.problem)  # none at the asked load
+    direction = reached.direction or State.zero(newton.problem)  # none at the whole load
     effort = astuple(newton.effort)
     checkpoint = Checkpoint(reached.state, load, step, direction, path, effort)
     newton.notify("step", load, reached.state, path[-1].iterations, 0.0, checkpoint)
