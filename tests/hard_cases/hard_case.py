@@ -27,8 +27,8 @@ class Finding:
 class HardCase:
     """One row of ``docs/hard-cases.md``.
 
-    ``slow`` cases run with ``pytest -m slow``. ``missing``: the good behaviour that is not there
-    yet; the test is then expected to fail, strictly.
+    ``slow`` cases run with ``pytest -m slow``; those that need ``inertia`` are for PARDISO alone.
+    ``missing``: the good behaviour that is not there yet; the test is then expected to fail, strictly.
     """
 
     name: str
@@ -36,6 +36,7 @@ class HardCase:
     behaviour: str
     run: Callable[[], tuple[Finding, ...]]
     slow: bool = False
+    inertia: bool = False
     missing: str = ""
 
 

@@ -270,6 +270,7 @@ CASES = (
         "elements turn inside out and stay so",
         "the walk ends before, at a stable state",
         impossible_motion,
+        inertia=True,
     ),
     HardCase(
         "A start with NaN",

@@ -208,11 +208,13 @@ CASES = (
         "Newton jumps over the maximum to a state that does not exist",
         "the limit point is found and named; the state returned is the last stable one",
         softening,
+        inertia=True,
     ),
     HardCase(
         "A block squeezed past zero thickness",
         "elements turn inside out; a folded surface is passed off as a flat one",
         "the walk ends where the tangent shows a second negative direction",
         compression,
+        inertia=True,
     ),
 )

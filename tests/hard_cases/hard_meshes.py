@@ -241,6 +241,7 @@ CASES = (
         "flat tetrahedra spoil the matrix or lock",
         "the mixed element bears them; Gmsh's meshes are checked for worse ones before solving",
         slivers,
+        inertia=True,
     ),
     HardCase(
         "A single element",

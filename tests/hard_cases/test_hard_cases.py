@@ -7,10 +7,12 @@ import re
 import pytest
 from hard_case import HardCase, row
 from hard_catalogue import DOCUMENT, all_cases
+from inertia import needs_inertia
 
 
 def _marks(case: HardCase) -> list[pytest.MarkDecorator]:
     marks = [pytest.mark.slow] if case.slow else []
+    marks += [needs_inertia] if case.inertia else []
     return [*marks, pytest.mark.xfail(reason=case.missing)] if case.missing else marks
 
 

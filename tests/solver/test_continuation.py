@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from inertia import needs_inertia
 
 from solver import (
     Mesh,
@@ -64,6 +65,7 @@ def test_the_path_passes_the_limit_point_of_the_closed_form(traced: Trace) -> No
     assert stretch_at(limit.point.volume) == pytest.approx(MAXIMUM["lambda_a"], rel=0.01)
 
 
+@needs_inertia
 def test_a_balloon_is_stable_up_to_its_limit_point_and_not_beyond(traced: Trace) -> None:
     peak = traced.points.index(traced.limits[0].point)
     assert all(point.stable for point in traced.points[:peak])
@@ -71,6 +73,7 @@ def test_a_balloon_is_stable_up_to_its_limit_point_and_not_beyond(traced: Trace)
     assert len(traced.points) > peak + 2
 
 
+@needs_inertia
 def test_volume_control_meets_the_closed_form_on_both_sides_of_the_limit(pumped: Solution) -> None:
     assert pumped.converged, pumped.message
     for stretch, stable in (("1.1", True), ("1.5", False)):
@@ -81,6 +84,7 @@ def test_volume_control_meets_the_closed_form_on_both_sides_of_the_limit(pumped:
         assert point.stable is stable
 
 
+@needs_inertia
 def test_volume_control_says_from_where_on_a_held_pressure_would_not_do(pumped: Solution) -> None:
     stable = [point.pressure for point in pumped.path if point.stable]
     assert pumped.message.endswith(f"would have lost it beyond {stable[-1]:.4g} MPa.")
@@ -103,6 +107,7 @@ def test_an_inflated_body_is_in_equilibrium_under_its_pressure(
     )
 
 
+@needs_inertia
 def test_a_pressure_beyond_the_limit_is_reported_as_such(ball: Problem) -> None:
     solution = solve(ball, 1.5)
     assert not solution.converged
@@ -122,6 +127,7 @@ def test_without_inertia_the_determinant_still_tells_an_unstable_state(ball: Pro
     assert not beyond.converged and beyond.limit == pytest.approx(MAXIMUM["P"], rel=3e-3)
 
 
+@needs_inertia
 def test_a_pressure_within_the_limit_mentions_none(ball: Problem) -> None:
     solution = solve(ball, 0.9)
     assert solution.converged and solution.stable and solution.limit is None

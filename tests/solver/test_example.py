@@ -7,10 +7,12 @@ import runpy
 from pathlib import Path
 
 import pytest
+from inertia import needs_inertia
 
 BALLOON = Path(__file__).parents[2] / "docs" / "balloon.py"
 
 
+@needs_inertia
 def test_the_balloon_of_the_documentation_holds_as_much_as_the_closed_form_says(
     capsys: pytest.CaptureFixture[str],
 ) -> None:

@@ -1,0 +1,11 @@
+"""Which tests need a linear solver that counts negative eigenvalues: SuperLU does not."""
+
+from __future__ import annotations
+
+import pytest
+
+from solver.linear import linear_solver
+
+needs_inertia = pytest.mark.skipif(
+    linear_solver("auto").name != "pardiso", reason="only PARDISO's inertia tells what is stable"
+)
