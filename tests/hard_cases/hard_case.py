@@ -28,7 +28,8 @@ class HardCase:
     """One row of ``docs/hard-cases.md``.
 
     ``slow`` cases run with ``pytest -m slow``; those that need ``inertia`` are for PARDISO alone.
-    ``missing``: the good behaviour that is not there yet; the test is then expected to fail, strictly.
+    ``missing``: the good behaviour that is not there yet; the test is then expected to fail,
+    strictly.
     """
 
     name: str
