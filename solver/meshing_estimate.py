@@ -37,10 +37,10 @@ MIB, KIB = 2**20, 2**10
 LIBRARIES = 680 * MIB
 """Bytes that the imported and compiled code takes."""
 
-BYTES_PER_UNKNOWN, AT_UNKNOWNS, GROWTH = 4.7 * KIB, 200_000, 0.1
-"""What assembly and single-precision factors add for each unknown, at so many of them, and the
-power with which it grows. Measured with PARDISO from 6590 to 309 294 unknowns, cells and halves
-of Prototype 1: 741 to 2255 MiB in all, estimated within 6 %."""
+BYTES_PER_UNKNOWN, AT_UNKNOWNS, GROWTH = 5.85 * KIB, 200_000, 0.1
+"""What assembly and factors add for each unknown, at so many of them, and the power with which it
+grows. Measured with PARDISO from 18 425 to 282 014 unknowns, cells and halves of Prototype 1: 747
+to 2351 MiB in all, estimated within 5 %."""
 
 
 @dataclass(frozen=True)
@@ -71,7 +71,7 @@ def expected_elements(body: BodySize, options: MeshOptions) -> float:
 
 
 def expected_memory(elements: float) -> float:
-    """Memory, bytes, of a program that solves on so many tetrahedra in single precision."""
+    """Memory, bytes, of a program that solves on so many tetrahedra."""
     unknowns = UNKNOWNS_PER_ELEMENT * elements
     return LIBRARIES + BYTES_PER_UNKNOWN * unknowns * (unknowns / AT_UNKNOWNS) ** GROWTH
 
