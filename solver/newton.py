@@ -61,7 +61,9 @@ class SolverOptions:
     def __post_init__(self) -> None:
         for name, low, high in OPTION_BOUNDS:
             value = getattr(self, name)
-            if value is not None and not low < value <= high:
+            if name == "first_step" and value is None:
+                continue
+            if value is None or not low < value <= high:
                 raise ValueError(
                     f"solver: {name} must be above {low} and at most {high}, got {value}."
                 )
@@ -218,7 +220,7 @@ class Newton:
             small = correction <= min(tolerance * size, depth)
             fast = correction < self.options.reuse * previous
             if small and onward and own:
-                return self.left(state, load, equilibrium, moved, iteration, guess)
+                return self.accepted_onward(state, load, equilibrium, moved, iteration, guess)
             if small and not onward:
                 attempt = self.verified(moved, load, iteration, guess)
                 if attempt.failure or not reuse or attempt.imbalance <= IMBALANCE:
@@ -229,7 +231,7 @@ class Newton:
             previous = correction
         return Attempt(guess, iteration, f"Newton did not converge in {iteration} iterations")
 
-    def left(
+    def accepted_onward(
         self,
         state: State,
         load: float,
