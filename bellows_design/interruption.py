@@ -9,8 +9,10 @@ from __future__ import annotations
 
 import _thread
 import signal
+import sys
 import threading
 import time
+import weakref
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -25,6 +27,9 @@ SAME_INTERRUPTION = 1.0
 
 AGAIN = 0.05
 """s. A signal that comes at a bad moment is looked at again after that."""
+
+UNDISTURBED = ("<frozen importlib", weakref.__file__)
+"""Begin the names of files whose functions, and what they call, no signal interrupts."""
 
 
 class Interrupted(KeyboardInterrupt):
@@ -43,8 +48,8 @@ class Signals:
     _latest: float = -SAME_INTERRUPTION
 
     def receive(self, number: int, frame: FrameType | None) -> None:
-        """Raise ``Interrupted``, but not twice for one interruption, and not within an import."""
-        if _is_importing(frame):
+        """Raise ``Interrupted``: once for one interruption, where it does no harm and is heard."""
+        if _must_end_first(frame):
             _repeat_soon(number)
             return
         now = time.monotonic()
@@ -53,12 +58,16 @@ class Signals:
             self.received.append(number)
             raise Interrupted(number)
 
+    def forget(self) -> None:
+        """The latest interruption was not heard: the next one counts, however soon it comes."""
+        self._latest = -SAME_INTERRUPTION
+
 
 @contextmanager
 def raising_signals() -> Iterator[Signals]:
     """Within the block the signals raise ``Interrupted``; afterwards they do what they did."""
     signals = Signals()
-    with _handled_by(signals.receive):
+    with _handled_by(signals.receive), _heard_everywhere(signals):
         yield signals
 
 
@@ -69,9 +78,13 @@ def interruption_in(error: BaseException | None) -> int | None:
     return None if error is None else int(getattr(error, "number", signal.SIGINT))
 
 
-def _is_importing(frame: FrameType | None) -> bool:
-    """True if ``frame`` serves an import: an exception there crashes some modules written in C."""
-    while frame is not None and not frame.f_code.co_filename.startswith("<frozen importlib"):
+def _must_end_first(frame: FrameType | None) -> bool:
+    """True if ``frame`` serves an import or a finalizer.
+
+    An exception crashes some modules written in C while they are imported; out of a finalizer it
+    does not come, and what was to be released stays.
+    """
+    while frame is not None and not frame.f_code.co_filename.startswith(UNDISTURBED):
         frame = frame.f_back
     return frame is not None
 
@@ -81,6 +94,25 @@ def _repeat_soon(number: int) -> None:
     later = threading.Timer(AGAIN, _thread.interrupt_main, (number,))
     later.daemon = True
     later.start()
+
+
+@contextmanager
+def _heard_everywhere(signals: Signals) -> Iterator[None]:
+    """Where Python drops exceptions (callbacks from C, ``__del__``), the signal comes again."""
+    usual = sys.unraisablehook
+
+    def repeat(dropped: sys.UnraisableHookArgs) -> None:
+        if isinstance(dropped.exc_value, Interrupted):
+            signals.forget()
+            _repeat_soon(dropped.exc_value.number)
+        else:
+            usual(dropped)
+
+    sys.unraisablehook = repeat
+    try:
+        yield
+    finally:
+        sys.unraisablehook = usual
 
 
 @contextmanager

@@ -10,8 +10,10 @@ import signal
 import subprocess
 import sys
 import time
+import weakref
 from collections.abc import Callable
 from pathlib import Path
+from typing import ClassVar
 
 import pytest
 
@@ -166,6 +168,41 @@ def test_a_signal_within_an_import_waits_for_its_end(
             time.sleep(0.05)
     assert sys.modules.pop("struck_module").whole
     assert struck_module.whole
+
+
+class Released:
+    """Is told in ``order`` when it goes, and raises a signal meanwhile."""
+
+    order: ClassVar[list[str]] = []
+
+    @classmethod
+    def release(cls) -> None:
+        signal.raise_signal(signal.SIGTERM)
+        cls.order.append("released")
+
+    def __del__(self) -> None:
+        self.release()
+
+
+class Finalized:
+    def __init__(self) -> None:
+        weakref.finalize(self, Released.release)
+
+
+@pytest.mark.parametrize("kind", [Released, Finalized])
+def test_a_signal_where_python_drops_exceptions_comes_again(
+    kind: type, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A command would go on as if nothing had come; what a finalizer releases is released."""
+    monkeypatch.setattr(Released, "order", [])
+    with pytest.raises(Interrupted), raising_signals() as signals:
+        thing = kind()
+        del thing
+        for _ in range(100):
+            time.sleep(0.05)
+    assert set(signals.received) == {signal.SIGTERM}
+    assert Released.order == (["released"] if kind is Finalized else [])
+    assert capsys.readouterr().err == ""
 
 
 def test_signals_do_afterwards_what_they_did() -> None:
