@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from bellows_design.leaving import leave_at_signals
+from bellows_design.cli.early_signals import leave_at_signals
 
 
 def main() -> None:
     """Run the command; its own imports, which take a while, may be interrupted already."""
     leave_at_signals()
-    from bellows_design.cli import app
+    from bellows_design.cli.commands import app
 
     app()
 

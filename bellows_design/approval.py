@@ -14,7 +14,7 @@ import math
 from dataclasses import asdict, dataclass
 from typing import Any, Literal, Protocol
 
-from bellows_design.design import Design
+from bellows_design.design.design import Design
 from printers import PrintabilityReport
 
 REQUIRED_RULES = ("watertight", "airtightness", "minimum_lines", "cross_section")

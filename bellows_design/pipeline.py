@@ -6,14 +6,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from bellows_design.budget import DEFAULT, Budget
-from bellows_design.design import Design
-from bellows_design.formats import Part
+from bellows_design.analysis.budget import DEFAULT, Budget
+from bellows_design.design.design import Design
+from bellows_design.export.formats import Part
 from bellows_design.progress import Progress, Silence
 
 if TYPE_CHECKING:
+    from bellows_design.analysis.evaluation import Evaluation
     from bellows_design.approval import Verdict
-    from bellows_design.result import Evaluation
     from printers.report import PrintabilityReport
 
 SILENCE = Silence()
@@ -49,8 +49,8 @@ def build_part(design: Design) -> Part:
 
     Raises ``GeometryError`` or ``TessellationError`` (both ``ValueError``) if there is none.
     """
-    from bellows_design.geometry import printed_part
-    from bellows_design.tessellation import tessellate
+    from bellows_design.geometry.actuator import printed_part
+    from bellows_design.geometry.tessellation import tessellate
 
     solid = printed_part(design.bellows, design.indent, design.port).solid
     return Part(design.name, design.description, design.digest, solid, tessellate(solid))
@@ -82,9 +82,9 @@ def run(
     only the estimated error keeps the verdict open, the mesh is refined and decided upon again, as
     far as the ``budget`` allows.
     """
+    from bellows_design.analysis.evaluate import evaluate, refined
     from bellows_design.approval import decide
-    from bellows_design.evaluation import evaluate, refined
-    from bellows_design.export import require_place
+    from bellows_design.export.approved import require_place
 
     require_place(design.name, output_root)
     progress.stage("geometry")
@@ -108,8 +108,8 @@ def _settle(
     output_root: Path,
 ) -> tuple[Path | None, Path | None]:
     """Export what is approved, withdraw what is not."""
-    from bellows_design.export import export_approved, withdraw
-    from bellows_design.tessellation import TOLERANCE
+    from bellows_design.export.approved import export_approved, withdraw
+    from bellows_design.geometry.tessellation import TOLERANCE
 
     if not verdict.approved:
         return None, withdraw(design.name, output_root)

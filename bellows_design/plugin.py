@@ -21,8 +21,8 @@ from collections.abc import Callable
 
 import cadquery as cq
 
-from bellows_design.design import Design
-from bellows_design.geometry import printed_part
+from bellows_design.design.design import Design
+from bellows_design.geometry.actuator import printed_part
 
 METHOD = "bellows"
 

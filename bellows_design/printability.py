@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from bellows_design.design import Design
-from bellows_design.tessellation import ClosedMesh
+from bellows_design.design.design import Design
+from bellows_design.geometry.tessellation import ClosedMesh
 from printers import DeclaredGap, DeclaredWall, Opening, PrintedModel
 
 

@@ -14,9 +14,9 @@ import numpy as np
 import pyvista as pv
 
 from bellows_design import load_design
-from bellows_design.evaluation import evaluate
-from bellows_design.geometry import printed_part
-from bellows_design.tessellation import tessellate
+from bellows_design.analysis.evaluate import evaluate
+from bellows_design.geometry.actuator import printed_part
+from bellows_design.geometry.tessellation import tessellate
 from solver import nodal_von_mises
 
 

@@ -4,19 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from printers.airtightness import Sealing, check_airtightness, seal
-from printers.boundary import Boundary
-from printers.envelope import check_bed_contact, check_build_volume, check_cross_section
-from printers.gaps import check_declared_gaps, check_measured_gaps
-from printers.integrity import check_one_body, check_self_intersection, check_watertight
+from printers.measure.boundary import Boundary
+from printers.measure.shells import split_shells
+from printers.measure.surface import Surface, merged_surface
 from printers.model import PrintedModel
-from printers.overhangs import check_overhangs, measure_overhangs
 from printers.profile import PrinterProfile
 from printers.report import PrintabilityReport, RuleResult
-from printers.sealing_walls import check_sealing_walls
-from printers.shells import split_shells
-from printers.surface import Surface, merged_surface
-from printers.walls import (
+from printers.rules.airtightness import Sealing, check_airtightness, seal
+from printers.rules.envelope import check_bed_contact, check_build_volume, check_cross_section
+from printers.rules.gaps import check_declared_gaps, check_measured_gaps
+from printers.rules.integrity import check_one_body, check_self_intersection, check_watertight
+from printers.rules.overhangs import check_overhangs, measure_overhangs
+from printers.rules.sealing_walls import check_sealing_walls
+from printers.rules.walls import (
     check_declared_against_measured,
     check_declared_walls,
     check_measured_walls,

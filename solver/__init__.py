@@ -8,41 +8,25 @@ the data classes does not wait for the compiled kernels.
 
 from __future__ import annotations
 
-from importlib import import_module
 from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from solver.checkpoint import Checkpoint
-    from solver.continuation import Limit, Trace, trace
-    from solver.inflation import inflate
-    from solver.interpolation import transfer
-    from solver.loading import solve
-    from solver.loads import BodyForce, Couple, PointForce, Traction
-    from solver.materials import Ogden
-    from solver.mesh import Mesh
-    from solver.models import Contact, Problem, SlenderAxis, Supports
-    from solver.motion import rotation
-    from solver.newton import Event, SolverOptions
-    from solver.reactions import Reaction, reaction
-    from solver.results import PathPoint, Solution, cavity_volume, write_vtu
-    from solver.stress import Peak, nodal_cauchy, nodal_von_mises, peak_von_mises
+from solver.lazy_names import imported_when_asked_for
 
-_MODULES = {
-    "checkpoint": ("Checkpoint",),
-    "continuation": ("Limit", "Trace", "trace"),
-    "inflation": ("inflate",),
-    "interpolation": ("transfer",),
-    "loading": ("solve",),
-    "loads": ("BodyForce", "Couple", "PointForce", "Traction"),
-    "materials": ("Ogden",),
-    "mesh": ("Mesh",),
-    "models": ("Contact", "Problem", "SlenderAxis", "Supports"),
-    "motion": ("rotation",),
-    "newton": ("Event", "SolverOptions"),
-    "reactions": ("Reaction", "reaction"),
-    "results": ("PathPoint", "Solution", "cavity_volume", "write_vtu"),
-    "stress": ("Peak", "nodal_cauchy", "nodal_von_mises", "peak_von_mises"),
-}
+if TYPE_CHECKING:
+    from solver.adaptivity.transfer import transfer
+    from solver.material.ogden import Ogden
+    from solver.mesh.mesh import Mesh
+    from solver.nonlinear.arc_length import Limit, Trace, trace
+    from solver.nonlinear.checkpoint import Checkpoint
+    from solver.nonlinear.finite_motion import rotation
+    from solver.nonlinear.load_stepping import solve
+    from solver.nonlinear.newton import Event, SolverOptions
+    from solver.nonlinear.volume_control import inflate
+    from solver.problem.loads import BodyForce, Couple, PointForce, Traction
+    from solver.problem.problem import Contact, Problem, SlenderAxis, Supports
+    from solver.results.reactions import Reaction, reaction
+    from solver.results.solution import PathPoint, Solution, cavity_volume, write_vtu
+    from solver.results.stress import Peak, nodal_cauchy, nodal_von_mises, peak_von_mises
 
 __all__ = [
     "BodyForce",
@@ -78,8 +62,22 @@ __all__ = [
 ]
 
 
-def __getattr__(name: str) -> object:
-    for module, names in _MODULES.items():
-        if name in names:
-            return getattr(import_module(f"{__name__}.{module}"), name)
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+__getattr__ = imported_when_asked_for(
+    __name__,
+    {
+        "adaptivity.transfer": ("transfer",),
+        "material.ogden": ("Ogden",),
+        "mesh.mesh": ("Mesh",),
+        "nonlinear.arc_length": ("Limit", "Trace", "trace"),
+        "nonlinear.checkpoint": ("Checkpoint",),
+        "nonlinear.finite_motion": ("rotation",),
+        "nonlinear.load_stepping": ("solve",),
+        "nonlinear.newton": ("Event", "SolverOptions"),
+        "nonlinear.volume_control": ("inflate",),
+        "problem.loads": ("BodyForce", "Couple", "PointForce", "Traction"),
+        "problem.problem": ("Contact", "Problem", "SlenderAxis", "Supports"),
+        "results.reactions": ("Reaction", "reaction"),
+        "results.solution": ("PathPoint", "Solution", "cavity_volume", "write_vtu"),
+        "results.stress": ("Peak", "nodal_cauchy", "nodal_von_mises", "peak_von_mises"),
+    },
+)

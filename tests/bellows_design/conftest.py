@@ -9,11 +9,11 @@ from typing import Any
 import pytest
 from fakes import fake_report
 
-from bellows_design.budget import DEFAULT, Budget
-from bellows_design.design import Design
-from bellows_design.formats import Part
+from bellows_design.analysis.budget import DEFAULT, Budget
+from bellows_design.design.design import Design
+from bellows_design.export.formats import Part
+from bellows_design.geometry.tessellation import tessellate
 from bellows_design.progress import Progress, Silence
-from bellows_design.tessellation import tessellate
 from printers import PrintabilityReport
 
 SILENCE = Silence()
@@ -52,7 +52,7 @@ def stub_stages(monkeypatch: pytest.MonkeyPatch, cube_part: Part) -> Callable[..
                 raise evaluation
             return evaluation
 
-        monkeypatch.setattr("bellows_design.evaluation.evaluate", evaluate)
+        monkeypatch.setattr("bellows_design.analysis.evaluate.evaluate", evaluate)
         monkeypatch.setattr(pipeline, "build_part", build)
         monkeypatch.setattr(pipeline, "check", lambda *_: report or fake_report())
 
@@ -62,7 +62,7 @@ def stub_stages(monkeypatch: pytest.MonkeyPatch, cube_part: Part) -> Callable[..
 @pytest.fixture
 def bellows(capfd: pytest.CaptureFixture[str]) -> Callable[..., tuple[int, str, str]]:
     """Run the command in this process: (exit status, stdout, stderr)."""
-    from bellows_design.cli import app
+    from bellows_design.cli.commands import app
 
     def call(*arguments: str) -> tuple[int, str, str]:
         status: int | str | None = 0

@@ -20,15 +20,15 @@ from refusals import refused_in_sentences
 
 from bellows_design import pipeline
 from bellows_design.approval import decide
-from bellows_design.design import Design, load_design, shipped_designs
+from bellows_design.cli.pressures import MOST, parse_pressures
+from bellows_design.design.design import Design, load_design, shipped_designs
+from bellows_design.design.overrides import known_keys, with_overrides
 from bellows_design.errors import DesignError
-from bellows_design.export import export_approved, require_place, withdraw
-from bellows_design.formats import Part
-from bellows_design.measurements import load_measurements
-from bellows_design.overrides import known_keys, with_overrides
-from bellows_design.pressures import MOST, parse_pressures
+from bellows_design.export.approved import export_approved, require_place, withdraw
+from bellows_design.export.formats import Part
+from bellows_design.materials.fitting.measurements import load_measurements
 
-DESIGNS = Path(__file__).parents[2] / "bellows_design" / "designs"
+DESIGNS = Path(__file__).parents[2] / "bellows_design/design/designs"
 MATERIALS = DESIGNS.parent / "materials"
 BASE = (DESIGNS / "prototype_2_indent.toml").read_bytes()
 CSV = b"mode,stretch,stress_mpa\n" + b"".join(
@@ -163,7 +163,7 @@ def test_a_pressure_made_to_harm_is_refused_soon(text: str) -> None:
 def light_stages(monkeypatch: pytest.MonkeyPatch) -> None:
     """Every design is computed at once, and refused."""
     fake = SimpleNamespace(evaluate=lambda *_, **__: FakeEvaluation(converged=False), refined=None)
-    monkeypatch.setitem(sys.modules, "bellows_design.evaluation", fake)  # type: ignore[arg-type]
+    monkeypatch.setitem(sys.modules, "bellows_design.analysis.evaluate", fake)  # type: ignore[arg-type]
     monkeypatch.setattr(pipeline, "build_part", _bodiless)
     monkeypatch.setattr(pipeline, "check", lambda *_: fake_report())
 

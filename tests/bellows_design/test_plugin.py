@@ -13,11 +13,11 @@ import pytest
 from cadquery import cqgi
 
 from bellows_design import plugin
-from bellows_design.design import Design, load_design
-from bellows_design.geometry import printed_part
-from bellows_design.parameters import BellowsParameters, Indent, Port
+from bellows_design.design.bellows_parameters import BellowsParameters, Indent, Port
+from bellows_design.design.design import Design, load_design
+from bellows_design.geometry.actuator import printed_part
 
-SCRIPT = Path(plugin.__file__).with_name("design_script.py")
+SCRIPT = Path(__file__).parents[2] / "examples/design_script.py"
 BELLOWS = BellowsParameters.model_validate(
     {**load_design("prototype_1").bellows.model_dump(), "length": 18, "number_of_bubbles": 1}
 )

@@ -14,9 +14,9 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from bellows_design.evaluation import evaluate
-from bellows_design.paper import TABLE_4, Result
-from bellows_design.result import Evaluation
+from bellows_design.analysis.evaluate import evaluate
+from bellows_design.analysis.evaluation import Evaluation
+from bellows_design.study.paper import TABLE_4, Result
 from bellows_design.versions import versions
 
 HEADING = (

@@ -10,12 +10,12 @@ from __future__ import annotations
 
 import sys
 
-from bellows_design.benchmark import evaluations
-from bellows_design.budget import Budget
-from bellows_design.design import load_design, shipped_designs
-from bellows_design.models import HALF, UNIT_CELL
-from bellows_design.overrides import with_overrides
-from bellows_design.result import Evaluation
+from bellows_design.analysis.budget import Budget
+from bellows_design.analysis.evaluation import Evaluation
+from bellows_design.analysis.models import HALF, UNIT_CELL
+from bellows_design.benchmark.study import evaluations
+from bellows_design.design.design import load_design, shipped_designs
+from bellows_design.design.overrides import with_overrides
 
 AMPLE = Budget(memory=100.0, mesh_seconds=3600.0)
 EXTREME = {
@@ -45,7 +45,7 @@ def main(cells: int = 2, halves: int = 1) -> None:
 
 
 def _print_row(name: str, before: Evaluation | None, evaluation: Evaluation) -> None:
-    from bellows_design.analysis import first_plan
+    from bellows_design.analysis.mesh_plan import first_plan
 
     first = first_plan(evaluation.solid, evaluation.design)
     plan = first if before is None else before.next_mesh

@@ -16,11 +16,11 @@ from typing import Any
 
 import numpy as np
 
-from bellows_design.design import Design, load_design
-from bellows_design.evaluation import evaluate
-from bellows_design.result import Evaluation
+from bellows_design.analysis.evaluate import evaluate
+from bellows_design.analysis.evaluation import Evaluation
+from bellows_design.design.design import Design, load_design
 from solver import Solution
-from solver.assembly import Assembly
+from solver.assembly.assembly import Assembly
 
 SEED = 20261122
 RANGES = {

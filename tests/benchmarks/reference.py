@@ -23,12 +23,12 @@ from pathlib import Path
 from typing import Any
 
 from bellows_design import load_design
-from bellows_design.budget import Budget
-from bellows_design.design import Design
-from bellows_design.evaluation import evaluate, refined
-from bellows_design.models import HALF
-from bellows_design.paper import TABLE_4
-from bellows_design.result import Evaluation
+from bellows_design.analysis.budget import Budget
+from bellows_design.analysis.evaluate import evaluate, refined
+from bellows_design.analysis.evaluation import Evaluation
+from bellows_design.analysis.models import HALF
+from bellows_design.design.design import Design
+from bellows_design.study.paper import TABLE_4
 from bellows_design.versions import versions
 
 CELL_ELEMENTS, HALF_ELEMENTS = 15_000, 80_000

@@ -56,8 +56,8 @@ def halves() -> Iterator[tuple[str, Callable[[], Iterable[Any]]]]:
 
 def cells() -> Iterator[tuple[str, Callable[[], Iterable[Any]]]]:
     """The paper's designs by the unit cell, with their ends."""
-    from bellows_design.evaluation import evaluate
-    from bellows_design.paper import TABLE_4
+    from bellows_design.analysis.evaluate import evaluate
+    from bellows_design.study.paper import TABLE_4
 
     def solutions(design: Any) -> Iterable[Any]:
         evaluation = evaluate(design, "unit-cell")

@@ -14,10 +14,10 @@ from pathlib import Path
 from typing import Any
 
 from bellows_design import load_design
-from bellows_design.benchmark import study
-from bellows_design.models import UNIT_CELL
-from bellows_design.paper import TABLE_4
-from bellows_design.reference import STORED
+from bellows_design.analysis.models import UNIT_CELL
+from bellows_design.benchmark.reference import STORED
+from bellows_design.benchmark.study import study
+from bellows_design.study.paper import TABLE_4
 
 WORK = (
     "| model | tetrahedra | unknowns | factorizations | this mesh | so far | memory "

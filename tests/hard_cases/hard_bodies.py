@@ -9,7 +9,7 @@ from meshes import FACES, bellows_mesh
 from numpy.typing import NDArray
 
 from solver import Mesh, Ogden, Problem, SlenderAxis, Solution, SolverOptions, Supports, solve
-from solver.elements import TETRAHEDRON_EDGES
+from solver.mesh.elements import TETRAHEDRON_EDGES
 
 Points = NDArray[np.float64]
 Motion = Callable[[Points, float], Points]

@@ -20,7 +20,7 @@ from scipy.sparse import csc_array
 from scipy.sparse.linalg import splu
 
 from solver import Mesh, Ogden, Problem, Traction
-from solver.elements import tetrahedron_rule
+from solver.mesh.elements import tetrahedron_rule
 
 RATIOS = (10.0, 1e2, 1e4, 1e6, 1e9)
 

@@ -34,9 +34,9 @@ from solver import (
     solve,
     trace,
 )
-from solver.assembly import Assembly, Equilibrium
-from solver.newton import Newton
-from solver.state import State
+from solver.assembly.assembly import Assembly, Equilibrium
+from solver.assembly.state import State
+from solver.nonlinear.newton import Newton
 
 BOX = box_mesh((2, 1, 1))
 NAN, INF = float("nan"), float("inf")

@@ -23,7 +23,7 @@ from hard_case import Finding, HardCase, at_most, below, refused, true, within
 from meshes import box_mesh
 
 from solver import Mesh, PointForce, Problem, Supports, Traction, solve
-from solver.elements import TETRAHEDRON_EDGES
+from solver.mesh.elements import TETRAHEDRON_EDGES
 
 BOX = box_mesh((2, 1, 1))
 

@@ -10,7 +10,7 @@ from hard_case import Finding, HardCase, exactly, refused, true
 from meshes import box_mesh
 
 from solver import Mesh, Ogden, Problem, Supports, solve
-from solver.elements import TRIANGLE_EDGES
+from solver.mesh.elements import TRIANGLE_EDGES
 
 MESH = box_mesh((2, 1, 1))
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from inertia import needs_inertia
 
-BALLOON = Path(__file__).parents[2] / "docs" / "balloon.py"
+BALLOON = Path(__file__).parents[2] / "examples/balloon.py"
 
 
 @needs_inertia

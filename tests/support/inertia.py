@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from solver.linear import linear_solver
+from solver.linear.solvers import linear_solver
 
 needs_inertia = pytest.mark.skipif(
     linear_solver("auto").name != "pardiso", reason="only PARDISO's inertia tells what is stable"

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from solver import Mesh
-from solver.elements import TETRAHEDRON_EDGES
+from solver.mesh.elements import TETRAHEDRON_EDGES
 
 FACES = ((0, 2, 1, 6, 5, 4), (0, 1, 3, 4, 9, 7), (1, 2, 3, 5, 8, 9), (0, 3, 2, 7, 8, 6))
 Points = NDArray[np.float64]

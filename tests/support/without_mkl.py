@@ -7,11 +7,11 @@ from __future__ import annotations
 
 import ctypes
 
-import solver.linear
+import solver.linear.solvers
 
 
 def _missing() -> ctypes.CDLL:
     raise ImportError("MKL is hidden.")
 
 
-solver.linear._load_mkl = _missing
+solver.linear.solvers._load_mkl = _missing

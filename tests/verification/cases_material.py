@@ -11,18 +11,9 @@ from case import Case, Outcome, Row
 from meshes import box_mesh
 from references import NINJAFLEX, TRELOAR, closed_form
 
-from solver import (
-    Mesh,
-    Ogden,
-    Problem,
-    Solution,
-    SolverOptions,
-    Supports,
-    kernels,
-    reaction,
-    solve,
-)
-from solver.assembly import solid
+from solver import Mesh, Ogden, Problem, Solution, SolverOptions, Supports, reaction, solve
+from solver.assembly.assembly import solid
+from solver.kernels import kernels
 
 MODES = {"uniaxial": (1, -0.5, -0.5), "equibiaxial": (1, 1, -2), "planar": (1, 0, -1)}
 """Log stretches over that of the prescribed stretch; the last direction is free of stress."""

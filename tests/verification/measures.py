@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from solver import Solution
-from solver.elements import TETRAHEDRON_EDGES, quadratic_gradients, quadratic_shapes
+from solver.mesh.elements import TETRAHEDRON_EDGES, quadratic_gradients, quadratic_shapes
 
 Points = NDArray[np.float64]
 Field = Callable[[Points], Points]

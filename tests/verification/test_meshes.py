@@ -7,8 +7,8 @@ import pytest
 from meshes import cylinder_mesh, mapped_box, sphere_mesh, tube_mesh
 
 from solver import Mesh, cavity_volume
-from solver.curving import jacobian_ratios
-from solver.elements import tetrahedron_rule, triangle_rule
+from solver.mesh.elements import tetrahedron_rule, triangle_rule
+from solver.mesh.mid_nodes import jacobian_ratios
 
 BODIES = {
     "cylinder": (cylinder_mesh(5.0, 20.0, 3, 4), np.pi * 500, ("side", "z0", "z1")),

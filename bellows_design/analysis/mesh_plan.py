@@ -1,0 +1,130 @@
+"""From a design to meshes of increasing fineness of a body that stands for it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from io import BytesIO
+
+import cadquery as cq
+from OCP.BRepAdaptor import BRepAdaptor_Surface
+
+from bellows_design.analysis.budget import DEFAULT, GIB, Budget
+from bellows_design.design.design import Design
+from bellows_design.errors import DesignError
+from bellows_design.geometry.named_solids import NamedSolid
+from solver import Mesh, Solution
+from solver.adaptivity.refinement import Refinement, refined_sizes
+from solver.meshing.estimate import BodySize, FaceSize, expected_elements, expected_memory
+from solver.meshing.solid import MeshOptions, SizeField, mesh_solid
+
+COARSEST_EDGE = 1.33
+"""Largest edge of the first mesh in walls' thicknesses: one quadratic element through a wall."""
+
+LARGEST_EDGE = 2.0
+"""The same for refined meshes, which may be coarser where nothing happens."""
+
+ELEMENTS_PER_CIRCLE = 6.0
+"""Edges on a full circle of a curved face in refined meshes, at least."""
+
+
+@dataclass(frozen=True)
+class PlannedMesh:
+    """A mesh of ``solid`` that is yet to be made."""
+
+    solid: NamedSolid
+    options: MeshOptions
+
+    @cached_property
+    def elements(self) -> float:
+        """Expected number of tetrahedra."""
+        return expected_elements(body_size(self.solid), self.options)
+
+    @property
+    def memory(self) -> float:
+        """Expected memory of a program that solves on it, GiB."""
+        return expected_memory(self.elements) / GIB
+
+    @property
+    def told(self) -> str:
+        """Both numbers in words."""
+        return f"about {_rounded(self.elements)} tetrahedra and take about {self.memory:.1f} GiB"
+
+    def fits(self, budget: Budget) -> bool:
+        """True if the budget's memory is enough."""
+        return self.memory <= budget.memory
+
+    def made(self, budget: Budget = DEFAULT) -> Mesh:
+        """The mesh.
+
+        Raises ``DesignError`` if it would not fit into the budget, and ``MeshingError``.
+        """
+        if not self.fits(budget):
+            raise DesignError(
+                f"the mesh would have {self.told}, above the limit of {budget.memory:.3g} GiB; "
+                "allow more with --memory if there is more, or make the thinnest wall thicker, "
+                "the actuator smaller or the model a unit-cell."
+            )
+        brep = BytesIO()
+        self.solid.solid.exportBrep(brep)
+        return mesh_solid(brep.getvalue(), self.solid.face_names, self.options, budget.mesh_seconds)
+
+
+def first_plan(solid: NamedSolid, design: Design) -> PlannedMesh:
+    """Coarsest mesh that carries the load."""
+    wall = thinnest_wall(design)
+    return PlannedMesh(solid, MeshOptions(COARSEST_EDGE * wall, 0.0, min(0.1, wall / 4)))
+
+
+def finer_plan(
+    solid: NamedSolid, design: Design, solution: Solution, refinement: Refinement
+) -> PlannedMesh:
+    """Mesh that is finer where ``solution`` is least accurate."""
+    wall = thinnest_wall(design)
+    field = SizeField(solution.problem.mesh, refined_sizes(solution, refinement))
+    size = LARGEST_EDGE * wall
+    options = MeshOptions(size, ELEMENTS_PER_CIRCLE, min(0.1, wall / 8), field)
+    return PlannedMesh(solid, options)
+
+
+def first_mesh(solid: NamedSolid, design: Design) -> Mesh:
+    """Coarsest mesh that carries the load. Raises ``DesignError`` and ``MeshingError``."""
+    return first_plan(solid, design).made()
+
+
+def finer_mesh(
+    solid: NamedSolid, design: Design, solution: Solution, refinement: Refinement
+) -> Mesh:
+    """Mesh that is finer where ``solution`` is least accurate. Raises as ``first_mesh``."""
+    return finer_plan(solid, design, solution, refinement).made()
+
+
+def thinnest_wall(design: Design) -> float:
+    """Thinnest wall of bubbles and tendon, mm."""
+    return min(design.bellows.bubble_thickness, design.bellows.tendon_thickness)
+
+
+def body_size(solid: NamedSolid) -> BodySize:
+    """What the number of elements depends on."""
+    box = solid.solid.BoundingBox()
+    faces = tuple(
+        FaceSize(face.Area(), tuple(edge.Length() for edge in face.Edges()), _radius(face))
+        for face in solid.solid.Faces()
+    )
+    return BodySize(solid.solid.Volume(), box.DiagonalLength, faces)
+
+
+def _radius(face: cq.Face) -> float:
+    """Least radius of curvature of a face, mm, as far as it is one of a fillet's."""
+    surface, kind = BRepAdaptor_Surface(face.wrapped), face.geomType()
+    if kind == "CYLINDER":
+        return float(surface.Cylinder().Radius())
+    if kind == "SPHERE":
+        return float(surface.Sphere().Radius())
+    return float(surface.Torus().MinorRadius()) if kind == "TORUS" else math.inf
+
+
+def _rounded(number: float) -> str:
+    """Two digits of a number, its thousands apart: 1234567 as 1 200 000."""
+    return f"{float(f'{number:.2g}'):,.0f}".replace(",", " ")

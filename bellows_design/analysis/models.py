@@ -1,0 +1,214 @@
+"""The ladder of models: which body is solved for, and how it is held.
+
+From small to large: the unit cell that repeats in the middle of the actuator, half of the
+actuator, all of it. Each is exact where the next is symmetric or uniform.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from bellows_design.design.bellows_parameters import SMALLEST_FEATURE, BellowsParameters
+from bellows_design.design.design import Design
+
+if TYPE_CHECKING:
+    from bellows_design.geometry.named_solids import NamedSolid
+    from solver import Contact, Mesh, Ogden, Problem, SlenderAxis
+    from solver.adaptivity.refinement import Refinement
+
+FEWEST_BUBBLES = 3
+"""From so many bubbles on there is a middle that knows nothing of the ends."""
+
+
+@dataclass(frozen=True)
+class Model:
+    """A body that stands for the actuator.
+
+    ``solid`` builds it, ``problem`` holds and loads a mesh of it; ``share`` of them make up the
+    repeating part (the unit cell: a bubble) or the whole. ``levels`` meshes are used unless more
+    accuracy is asked for; ``growth`` is how many times more elements each next one has, about.
+    """
+
+    name: str
+    solid: Callable[[Design], NamedSolid]
+    problem: Callable[[Design, Mesh], Problem]
+    share: int
+    levels: int
+    growth: float
+
+    @property
+    def refinement(self) -> Refinement:
+        """How the next mesh is made."""
+        from solver.adaptivity.refinement import Refinement
+
+        return Refinement(growth=self.growth, peak_tolerance=PEAK_TOLERANCE)
+
+
+PEAK_TOLERANCE = 0.03
+
+PENETRATION = 0.005
+"""In thinnest walls. Four times as much moves the angle of Prototype 1's cell in vacuum by 0.7 %,
+two fifths of it by 0.3 %, with more iterations."""
+
+
+def _cell_solid(design: Design) -> NamedSolid:
+    from bellows_design.geometry.actuator import unit_cell
+
+    return unit_cell(design.bellows, design.indent)
+
+
+def _half_solid(design: Design) -> NamedSolid:
+    from bellows_design.geometry.actuator import half_body
+
+    return half_body(design.bellows, design.indent)
+
+
+def _full_solid(design: Design) -> NamedSolid:
+    from bellows_design.geometry.actuator import full_body
+
+    return full_body(design.bellows, design.indent)
+
+
+def _cell_problem(design: Design, mesh: Mesh) -> Problem:
+    """Symmetry about the bubble's middle and about y = 0; the gap's middle stays plane.
+
+    Behind each of these planes stands the cell's mirror image, which its walls may touch.
+    """
+    from bellows_design.geometry.actuator import OUTSIDE
+    from solver import Contact
+
+    neighbour = Contact(OUTSIDE, _penetration(design))
+    return _cell(design, mesh, (neighbour, *_inner_contacts(design)))
+
+
+def _free_cell_problem(design: Design, mesh: Mesh) -> Problem:
+    """The unit cell of a bubble without neighbours: an end of the actuator, about."""
+    return _cell(design, mesh, _inner_contacts(design))
+
+
+def _inner_contacts(design: Design) -> tuple[Contact, ...]:
+    """Of a chamber's opposite walls, along x and across."""
+    from bellows_design.geometry.actuator import CAVITY
+    from solver import Contact
+
+    depth = _penetration(design)
+    return Contact(CAVITY, depth, axis=0), Contact(CAVITY, depth, axis=1)
+
+
+def _penetration(design: Design) -> float:
+    """How far a contact pressure of the shear modulus pushes a wall through a plane, mm."""
+    from bellows_design.analysis.mesh_plan import thinnest_wall
+
+    return PENETRATION * thinnest_wall(design)
+
+
+def _cell(design: Design, mesh: Mesh, contacts: tuple[Contact, ...]) -> Problem:
+    from bellows_design.geometry.actuator import BUBBLE_MIDDLE, CAVITY, GAP_MIDDLE, SYMMETRY
+    from solver import Problem, SlenderAxis, Supports
+
+    end = design.bellows.pitch / 2
+    return Problem(
+        mesh=mesh,
+        material=_material(design),
+        supports=Supports(symmetry={SYMMETRY: 1, BUBBLE_MIDDLE: 0}),
+        pressurised=(CAVITY,),
+        axis=SlenderAxis((0.0, end / 2, end)),
+        moving_plane=GAP_MIDDLE,
+        sharp_edge_radius=sharp_edge_radius(design),
+        contacts=contacts,
+    )
+
+
+def _half_problem(design: Design, mesh: Mesh) -> Problem:
+    """Root face clamped, symmetry about y = 0, pressure on the whole cavity."""
+    from bellows_design.geometry.actuator import SYMMETRY
+
+    return _actuator(design, mesh, {SYMMETRY: 1})
+
+
+def _full_problem(design: Design, mesh: Mesh) -> Problem:
+    """Root face clamped, pressure on the whole cavity."""
+    return _actuator(design, mesh, {})
+
+
+def _actuator(design: Design, mesh: Mesh, symmetry: dict[str, int]) -> Problem:
+    from bellows_design.geometry.actuator import CAVITY, ROOT
+    from solver import Problem, Supports
+
+    return Problem(
+        mesh=mesh,
+        material=_material(design),
+        supports=Supports(clamped=(ROOT,), symmetry=symmetry),
+        pressurised=(CAVITY,),
+        axis=_axis(design.bellows),
+        sharp_edge_radius=sharp_edge_radius(design),
+    )
+
+
+UNIT_CELL = Model("unit-cell", _cell_solid, _cell_problem, share=4, levels=3, growth=2.0)
+HALF = Model("half", _half_solid, _half_problem, share=2, levels=2, growth=1.6)
+FULL = Model("full", _full_solid, _full_problem, share=1, levels=2, growth=1.6)
+FREE_CELL = replace(UNIT_CELL, name="free-cell", problem=_free_cell_problem)
+MODELS = {model.name: model for model in (UNIT_CELL, HALF, FULL)}
+
+
+def choose(design: Design, name: str = "auto") -> tuple[Model, str]:
+    """The model called ``name``, or the smallest that answers for ``design``; and why.
+
+    Raises ``ValueError`` for an unknown name.
+    """
+    if name != "auto":
+        if name not in MODELS:
+            raise ValueError(f"model = {name!r} must be one of {', '.join(('auto', *MODELS))}.")
+        return MODELS[name], "as asked for"
+    count = design.bellows.bubble_count
+    if count >= FEWEST_BUBBLES:
+        return UNIT_CELL, (
+            f"{count} bubbles deform alike: a quarter of one answers for all, "
+            "and a short actuator for the ends"
+        )
+    return HALF, (
+        f"{count} bubble{'s' * (count > 1)} with an end on either side: body and load are "
+        "symmetric about y = 0"
+    )
+
+
+def shortened(design: Design) -> Design:
+    """The same actuator with one bubble only: both ends and nothing between them."""
+    bellows = design.bellows
+    tip = bellows.length - bellows.root_length - bellows.train_length
+    numbers = bellows.model_dump() | {
+        "number_of_bubbles": 1,
+        "length": max(bellows.root_length + bellows.bubble_length + tip, LEAST_LENGTH),
+        "offset": bellows.root_length,
+    }
+    short = type(bellows).model_validate(numbers)
+    return design.model_copy(update={"bellows": short})
+
+
+LEAST_LENGTH = 10.0
+"""mm. Bound of ``BellowsParameters.length``; a longer stub at the tip only goes along."""
+
+
+def sharp_edge_radius(design: Design) -> float:
+    """How near to sharp outer edges no stress is reported, mm: a printed line rounds them."""
+    bellows = design.bellows
+    return min(SMALLEST_FEATURE, min(bellows.bubble_thickness, bellows.tendon_thickness) / 4)
+
+
+def _material(design: Design) -> Ogden:
+    from solver import Ogden
+
+    material = design.material
+    return Ogden(mu=material.mu, alpha=material.alpha, higher=material.higher)
+
+
+def _axis(bellows: BellowsParameters) -> SlenderAxis:
+    """Stations at the root, at every bubble's and every gap's middle, and at the tip."""
+    from solver import SlenderAxis
+
+    middles = bellows.bubble_middles
+    gaps = (middle + bellows.pitch / 2 for middle in middles[:-1])
+    return SlenderAxis(tuple(sorted((0.0, *middles, *gaps, bellows.length))))

@@ -1,0 +1,1 @@
+"""Speed against error, measured on this machine against stored reference values."""

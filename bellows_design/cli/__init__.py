@@ -1,0 +1,1 @@
+"""The command ``bellows``: what it reads, how it answers, and how it ends."""

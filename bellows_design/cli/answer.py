@@ -1,0 +1,159 @@
+"""One answer on stdout, everything else on stderr, and an exit status that says which it was.
+
+Libraries written in C print to stdout when they please; while a command works, file descriptor 1
+leads to stderr, so that a JSON answer stands alone.
+"""
+
+from __future__ import annotations
+
+import dis
+import gc
+import os
+import sys
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
+from types import TracebackType
+from typing import TYPE_CHECKING, Any
+
+import typer
+
+from bellows_design.cli.early_signals import told
+from bellows_design.cli.interruption import interruption_in, raising_signals
+
+if TYPE_CHECKING:
+    from rich.console import RenderableType
+
+DONE, REFUSED, BAD_INPUT, NOT_SOLVED, INTERNAL = 0, 1, 2, 3, 4
+TRACEBACK = "BELLOWS_TRACEBACK"
+"""Environment variable: when set, errors show where they come from."""
+
+_OURS = ("bellows_design", "solver", "printers")
+
+OBJECTS_BETWEEN_COLLECTIONS = 50_000
+"""At Python's own 700 the collector runs a thousand times while an evaluation loads its libraries,
+whose objects all stay."""
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What a command found: for a program, for a person, and as an exit status."""
+
+    content: dict[str, Any]
+    text: Sequence[RenderableType]
+    status: int = DONE
+
+
+def answer(work: Callable[[], Answer], as_json: bool) -> None:
+    """Do ``work`` and print its answer, or one sentence on why there is none; then exit."""
+    try:
+        with raising_signals() as signals, stdout_is_stderr(), rare_garbage_collection():
+            result = work()
+    except BaseException as error:
+        if os.environ.get(TRACEBACK) or isinstance(error, SystemExit | GeneratorExit):
+            raise
+        sentence, status = told(signals.received[0]) if signals.received else explained(error)
+        typer.echo(f"bellows: {sentence}", err=True)
+        if as_json:
+            _print_json({"error": sentence, "exit_status": status})
+        raise typer.Exit(status) from None
+    if as_json:
+        _print_json(result.content)
+    else:
+        _print_text(result.text)
+    raise typer.Exit(result.status)
+
+
+def explained(error: BaseException) -> tuple[str, int]:
+    """One sentence for people and the exit status for ``error``."""
+    from bellows_design.cli.system_libraries import missing_library
+
+    missing = missing_library(error)
+    if missing is not None:
+        return missing, INTERNAL
+    interruption = interruption_in(error)
+    if interruption is not None:
+        return told(interruption)
+    if type(error).__name__ == "MeshingError":  # its module imports NumPy
+        return str(error), NOT_SOLVED
+    if isinstance(error, ValueError) and _raised_by_us(error.__traceback__):
+        return str(error), BAD_INPUT
+    if isinstance(error, OSError) and error.strerror:
+        place = f"{error.filename}: " if error.filename else ""
+        return f"{place}{error.strerror}.", BAD_INPUT
+    return (
+        f"internal error, {type(error).__name__}: {error} "
+        f"(set {TRACEBACK}=1 to see where; please report it).",
+        INTERNAL,
+    )
+
+
+@contextmanager
+def stdout_is_stderr() -> Iterator[None]:
+    """Within the block, whatever is written to stdout, from C too, comes out on stderr."""
+    python_stdout = sys.stdout
+    sys.stdout.flush()
+    saved = os.dup(1)
+    try:
+        os.dup2(2, 1)
+        sys.stdout = sys.stderr
+        yield
+    finally:
+        sys.stdout = python_stdout
+        with suppress(OSError):
+            _flush_c_streams()
+        os.dup2(saved, 1)
+        os.close(saved)
+
+
+@contextmanager
+def rare_garbage_collection() -> Iterator[None]:
+    """Within the block, look for unreachable cycles of objects less often than Python would."""
+    usual = gc.get_threshold()
+    gc.set_threshold(OBJECTS_BETWEEN_COLLECTIONS)
+    try:
+        yield
+    finally:
+        gc.set_threshold(*usual)
+
+
+def _flush_c_streams() -> None:
+    """Push out what C code left in its own buffer, while it still leads to stderr."""
+    import ctypes
+
+    ctypes.CDLL(None).fflush(None)
+
+
+def _raised_by_us(traceback: TracebackType | None) -> bool:
+    """True if a ``raise`` statement of this project threw: then the message is meant for users."""
+    if traceback is None:
+        return False
+    while traceback.tb_next is not None:
+        traceback = traceback.tb_next
+    frame = traceback.tb_frame
+    package = str(frame.f_globals.get("__name__", "")).partition(".")[0]
+    instruction = dis.opname[frame.f_code.co_code[traceback.tb_lasti]]
+    return package in _OURS and instruction in ("RAISE_VARARGS", "RERAISE")
+
+
+def _print_json(content: dict[str, Any]) -> None:
+    from bellows_design.export.approved import json_text
+
+    _tolerate_any_terminal()
+    typer.echo(json_text(content), nl=False)
+
+
+def _print_text(lines: Sequence[RenderableType]) -> None:
+    from rich.console import Console
+
+    _tolerate_any_terminal()
+    console = Console(highlight=False, markup=False, soft_wrap=True)
+    for line in lines:
+        console.print(line)
+
+
+def _tolerate_any_terminal() -> None:
+    """Where the terminal's encoding lacks a sign (° µ Ć), print ? rather than fail."""
+    reconfigure = getattr(sys.stdout, "reconfigure", None)
+    if reconfigure is not None:
+        reconfigure(errors="replace")

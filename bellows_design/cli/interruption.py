@@ -1,0 +1,135 @@
+"""What Ctrl-C, a kill or a closed terminal do to a command: one sentence, a status, no debris.
+
+While a command works, a signal raises: every temporary file goes on the way out. Before and after
+there is nothing to clear up, and exceptions would meet half-imported modules: the process leaves
+at once.
+"""
+
+from __future__ import annotations
+
+import _thread
+import signal
+import sys
+import threading
+import time
+import weakref
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from types import FrameType
+
+from bellows_design.cli.early_signals import SIGNALS
+
+Handler = Callable[[int, FrameType | None], None]
+
+SAME_INTERRUPTION = 1.0
+"""s. A second signal within that belongs to the first and does not disturb the clearing up."""
+
+AGAIN = 0.05
+"""s. A signal that comes at a bad moment is looked at again after that."""
+
+UNDISTURBED = ("<frozen importlib", weakref.__file__)
+"""Begin the names of files whose functions, and what they call, no signal interrupts."""
+
+
+class Interrupted(KeyboardInterrupt):
+    """A signal came. Libraries that let Ctrl-C through let this through as well."""
+
+    def __init__(self, number: int) -> None:
+        super().__init__(number)
+        self.number = number
+
+
+@dataclass
+class Signals:
+    """Signals that came while a command worked."""
+
+    received: list[int] = field(default_factory=list)
+    _latest: float = -SAME_INTERRUPTION
+
+    def receive(self, number: int, frame: FrameType | None) -> None:
+        """Raise ``Interrupted``: once for one interruption, where it does no harm and is heard."""
+        if _must_end_first(frame):
+            _repeat_soon(number)
+            return
+        now = time.monotonic()
+        if now - self._latest >= SAME_INTERRUPTION:
+            self._latest = now
+            self.received.append(number)
+            raise Interrupted(number)
+
+    def forget(self) -> None:
+        """The latest interruption was not heard: the next one counts, however soon it comes."""
+        self._latest = -SAME_INTERRUPTION
+
+
+@contextmanager
+def raising_signals() -> Iterator[Signals]:
+    """Within the block the signals raise ``Interrupted``; afterwards they do what they did."""
+    signals = Signals()
+    with _handled_by(signals.receive), _heard_everywhere(signals):
+        yield signals
+
+
+def interruption_in(error: BaseException | None) -> int | None:
+    """The signal behind ``error``, also where a C extension made an ImportError of it."""
+    while error is not None and not isinstance(error, KeyboardInterrupt):
+        error = error.__cause__ or error.__context__
+    return None if error is None else int(getattr(error, "number", signal.SIGINT))
+
+
+def _must_end_first(frame: FrameType | None) -> bool:
+    """True if ``frame`` serves an import or a finalizer.
+
+    An exception crashes some modules written in C while they are imported; out of a finalizer it
+    does not come, and what was to be released stays.
+    """
+    while frame is not None and not frame.f_code.co_filename.startswith(UNDISTURBED):
+        frame = frame.f_back
+    return frame is not None
+
+
+def _repeat_soon(number: int) -> None:
+    """Let the signal come again in a moment."""
+    later = threading.Timer(AGAIN, _thread.interrupt_main, (number,))
+    later.daemon = True
+    later.start()
+
+
+@contextmanager
+def _heard_everywhere(signals: Signals) -> Iterator[None]:
+    """Where Python drops exceptions (callbacks from C, ``__del__``), the signal comes again."""
+    usual = sys.unraisablehook
+
+    def repeat(dropped: sys.UnraisableHookArgs) -> None:
+        if isinstance(dropped.exc_value, Interrupted):
+            signals.forget()
+            _repeat_soon(dropped.exc_value.number)
+        else:
+            usual(dropped)
+
+    sys.unraisablehook = repeat
+    try:
+        yield
+    finally:
+        sys.unraisablehook = usual
+
+
+@contextmanager
+def _handled_by(handler: Handler) -> Iterator[None]:
+    before = {number: signal.getsignal(number) for number in _ours()}
+    try:
+        for number in before:
+            signal.signal(number, handler)
+        yield
+    finally:
+        for number, usual in before.items():
+            signal.signal(number, usual)
+
+
+def _ours() -> tuple[int, ...]:
+    """Signals to handle: none outside the main thread, and none that is to be ignored (nohup)."""
+    if threading.current_thread() is not threading.main_thread():
+        return ()
+    usual = {number: signal.getsignal(number) for number in SIGNALS}
+    return tuple(number for number, now in usual.items() if now not in (signal.SIG_IGN, None))

@@ -1,0 +1,1 @@
+"""Parts as files, and the folder of an approved design."""

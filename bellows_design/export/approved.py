@@ -1,0 +1,190 @@
+"""Approved models leave through here, and only approved ones.
+
+``exports/NAME/`` holds ``NAME.stl``, ``NAME.3mf``, ``NAME.step`` and ``manifest.json``. The folder
+is written under a hidden name beside its place and renamed when it is complete: a reader finds all
+of it or nothing. The manifest states the design, the verdict's grounds and the hash of every file.
+
+One name stands for one current verdict. An export replaces the earlier one of its name; a refusal
+withdraws it, for whoever looks into the folder must not take yesterday's approval for today's.
+Nothing is lost by that: the design in a manifest rebuilds its files. Only files that a manifest of
+ours lists are ever removed, never a file or folder that someone else put there.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import math
+import os
+import shutil
+from collections.abc import Mapping
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+from bellows_design.approval import Verdict
+from bellows_design.errors import DesignError, quoted
+from bellows_design.export.formats import WRITERS, Part
+from bellows_design.files.atomic import (
+    open_to_readers,
+    remove_leftovers,
+    replacing,
+    temporary_beside,
+)
+
+MANIFEST = "manifest.json"
+MANIFEST_FORMAT = "bellows-design manifest 1"
+
+
+def export_approved(
+    part: Part, verdict: Verdict, grounds: Mapping[str, Any], output_root: Path
+) -> Path:
+    """Write the approved ``part`` into ``output_root/NAME`` and return that folder.
+
+    ``grounds`` goes into the manifest (design, check, evaluation, versions). Raises ``ValueError``
+    if the verdict is no approval, ``DesignError`` if the folder holds files that are not ours, and
+    ``OSError`` if it cannot be written; then nothing has changed.
+    """
+    if not verdict.approved:
+        raise ValueError(f"{part.name} is not approved and cannot be exported")
+    require_place(part.name, output_root)
+    target = output_root / part.name
+    output_root.mkdir(parents=True, exist_ok=True)
+    remove_leftovers(target)
+    fresh = temporary_beside(target)
+    try:
+        fresh.mkdir(mode=0o700)
+        _fill(fresh, part, verdict, grounds)
+        _swap(fresh, target)
+    finally:
+        shutil.rmtree(fresh, ignore_errors=True)
+    return target
+
+
+def require_place(name: str, output_root: Path) -> None:
+    """Raise ``DesignError`` if ``output_root/name`` may not be written or replaced.
+
+    Worth asking before the long computation that an export follows.
+    """
+    _require_plain(name)
+    if output_root.exists() and not output_root.is_dir():
+        raise DesignError(f"{quoted(str(output_root))} is a file, not a folder for exports.")
+    _require_ours(output_root / name)
+
+
+def withdraw(name: str, output_root: Path) -> Path | None:
+    """Remove the earlier export called ``name``, if there is one; return its folder.
+
+    Removes the manifest first and then the files it lists, so that a half-done withdrawal is
+    never mistaken for an export; files of others stay where they are.
+    """
+    _require_plain(name)
+    folder = output_root / name
+    remove_leftovers(folder)
+    listed = _listed_files(folder)
+    if listed is None:
+        return None
+    for name_of_file in (MANIFEST, *listed):
+        if (folder / name_of_file).is_file():
+            (folder / name_of_file).unlink()
+    with suppress(OSError):  # other people's files keep the folder
+        folder.rmdir()
+    return folder
+
+
+def write_json(content: Mapping[str, Any], path: Path) -> None:
+    """Write ``content`` as JSON, completely or not at all."""
+    with replacing(path) as temporary:
+        temporary.write_text(json_text(content), "utf-8")
+
+
+def json_text(content: Mapping[str, Any]) -> str:
+    """``content`` as JSON; numbers that are not finite, which JSON lacks, become null."""
+    return json.dumps(_finite(content), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+def _finite(value: Any) -> Any:
+    if isinstance(value, Mapping):
+        return {str(key): _finite(inner) for key, inner in value.items()}
+    if isinstance(value, list | tuple):
+        return [_finite(inner) for inner in value]
+    if isinstance(value, str | int | None):
+        return value
+    if isinstance(value, Path):
+        return str(value)
+    number = float(value)  # also NumPy's
+    return number if math.isfinite(number) else None
+
+
+def _fill(folder: Path, part: Part, verdict: Verdict, grounds: Mapping[str, Any]) -> None:
+    open_to_readers(folder)
+    for suffix, write in WRITERS.items():
+        write(part, folder / f"{part.name}{suffix}")
+    manifest = {
+        "format": MANIFEST_FORMAT,
+        "name": part.name,
+        "digest": part.digest,
+        "verdict": verdict.to_dict(),
+        **grounds,
+        "files": {file.name: _fingerprint(file) for file in sorted(folder.iterdir())},
+    }
+    write_json(manifest, folder / MANIFEST)
+
+
+def _fingerprint(file: Path) -> dict[str, Any]:
+    content = file.read_bytes()
+    return {"sha256": hashlib.sha256(content).hexdigest(), "bytes": len(content)}
+
+
+def _swap(fresh: Path, target: Path) -> None:
+    """Put ``fresh`` in ``target``'s place; on failure or interruption ``target`` is as before."""
+    retired = temporary_beside(target)
+    try:
+        with suppress(FileNotFoundError):
+            os.rename(target, retired)
+        os.rename(fresh, target)
+    finally:
+        if retired.exists() and not target.exists():
+            os.rename(retired, target)
+        shutil.rmtree(retired, ignore_errors=True)
+
+
+def _require_ours(folder: Path) -> None:
+    """Refuse to replace anything but a folder that holds nothing but an export of ours."""
+    if not folder.exists() and not folder.is_symlink():
+        return
+    listed = _listed_files(folder)
+    present = {file.name for file in folder.iterdir()} if folder.is_dir() else set()
+    others = sorted(present - {MANIFEST, *(listed or ())})
+    if listed is None or others:
+        found = f" (it holds {', '.join(quoted(name) for name in others[:3])})" if others else ""
+        raise DesignError(
+            f"{quoted(str(folder))} is not an export of ours alone{found}; move it away or choose "
+            "another --output."
+        )
+
+
+def _listed_files(folder: Path) -> tuple[str, ...] | None:
+    """Plain file names that the manifest of ours in ``folder`` lists; None without such a one."""
+    if folder.is_symlink() or not (folder / MANIFEST).is_file():
+        return None
+    try:
+        manifest = json.loads((folder / MANIFEST).read_text("utf-8"))
+    except (OSError, ValueError, RecursionError):
+        return None
+    if not isinstance(manifest, dict) or manifest.get("format") != MANIFEST_FORMAT:
+        return None
+    files = manifest.get("files")
+    names = files if isinstance(files, dict) else {}
+    return tuple(name for name in names if _is_plain(name))
+
+
+def _is_plain(name: str) -> bool:
+    """True if ``name`` leads to a place right in a folder: no way out, no way further in."""
+    return name == Path(name).name and name not in ("", "..", ".") and "\0" not in name
+
+
+def _require_plain(name: str) -> None:
+    """Refuse names that lead out; those of designs never do, unless made without their checks."""
+    if not _is_plain(name):
+        raise DesignError(f"{quoted(name)} is no name of a folder in the output folder.")

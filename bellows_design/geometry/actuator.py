@@ -1,0 +1,269 @@
+"""Parameters to CAD solids: the part as printed, and the bodies that are analysed.
+
+Everything is solids added and subtracted; nothing is shelled or filleted afterwards. Chambers and
+channel are rounded on all their edges before they are joined, so every loaded re-entrant edge of
+the part, the junction of chamber and channel included, carries the inner fillet.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+
+import cadquery as cq
+
+from bellows_design.design.bellows_parameters import (
+    SMALLEST_FEATURE,
+    BellowsParameters,
+    Indent,
+    Port,
+    snapped_radius,
+)
+from bellows_design.geometry.named_solids import (
+    NamedSolid,
+    box,
+    cut,
+    fused,
+    named,
+    prism,
+    rounded_box,
+)
+
+OUTSIDE, CAVITY, ROOT, TIP, SYMMETRY, PORT = (
+    "outside",
+    "cavity",
+    "root",
+    "tip",
+    "symmetry",
+    "port",
+)
+BUBBLE_MIDDLE, GAP_MIDDLE = "bubble_middle", "gap_middle"
+BEYOND = 1.0
+"""mm. How far a cutting solid reaches past what it cuts."""
+
+
+def printed_part(bellows: BellowsParameters, indent: Indent | None, port: Port) -> NamedSolid:
+    """Solid as printed: closed tip, socket for the tube at the root.
+
+    Faces: ``cavity``, ``outside``, ``root``, ``tip``, ``port`` (the socket and its mouth).
+
+    Raises:
+        ValueError: indent or port do not fit the bellows.
+        GeometryError: the CAD kernel failed.
+    """
+    port.check_fits(bellows)
+    body = fused(_outer(bellows, indent), _port_boss(bellows, port))
+    return cut(body, _cavity(bellows, indent), *_port_bore(bellows, port))
+
+
+def half_body(bellows: BellowsParameters, indent: Indent | None) -> NamedSolid:
+    """Half y >= 0 of the actuator with its cavity closed (no port), for analysis.
+
+    Faces: ``cavity``, ``outside``, ``root`` (x = 0), ``tip`` (x = length), ``symmetry`` (y = 0).
+    Raises like :func:`printed_part`.
+    """
+    other_half = box(
+        (-BEYOND, -bellows.bubble_width, -BEYOND),
+        (bellows.length + BEYOND, 0, bellows.bubble_height + BEYOND),
+    )
+    return cut(full_body(bellows, indent), named(other_half, SYMMETRY))
+
+
+def unit_cell(bellows: BellowsParameters, indent: Indent | None) -> NamedSolid:
+    """Half of a bubble, half of its width: what repeats in the middle of the actuator.
+
+    From the middle of a bubble at x = 0 to the middle of the gap at x = pitch / 2, y >= 0. Faces:
+    ``cavity``, ``outside``, ``bubble_middle``, ``gap_middle``, ``symmetry``.
+    Raises like :func:`printed_part`.
+    """
+    width, height, end = bellows.bubble_width, bellows.bubble_height, bellows.pitch / 2
+    body = cut(_cell_outside(bellows, indent), _cell_cavity(bellows, indent))
+    other_half = box((-2 * end, -width, -BEYOND), (2 * end, 0, height + BEYOND))
+    before = box((-2 * end, -width, -BEYOND), (0, width, height + BEYOND))
+    return cut(body, named(other_half, SYMMETRY), named(before, BUBBLE_MIDDLE))
+
+
+def _cell_outside(bellows: BellowsParameters, indent: Indent | None) -> NamedSolid:
+    """Outside of one bubble at x = 0 with the tendon from gap middle to gap middle."""
+    half, end = bellows.tendon_width / 2, bellows.pitch / 2
+    tendon = named(box((-end, -half, 0), (end, half, bellows.tendon_height)), OUTSIDE)
+    outer = fused(tendon.renamed(_section_name), named(_bubble(bellows), OUTSIDE))
+    if indent is None or indent.side == "inside":
+        return outer
+    indent.check_fits(bellows)
+    return cut(outer, named(_outside_groove(indent, bellows.bubble_width / 2 + BEYOND), OUTSIDE))
+
+
+def _cell_cavity(bellows: BellowsParameters, indent: Indent | None) -> NamedSolid:
+    """Air in one bubble at x = 0, and in the channel beyond its gap's middles."""
+    half, wall, radius = bellows.channel_width / 2, bellows.tendon_thickness, bellows.channel_fillet
+    end = bellows.pitch / 2 + radius + BEYOND
+    channel = rounded_box((-end, -half, wall), (end, half, bellows.tendon_height - wall), radius)
+    cavity = fused(named(channel, CAVITY), named(_chamber(bellows), CAVITY))
+    if indent is None or indent.side == "outside":
+        return cavity
+    indent.check_fits(bellows)
+    return fused(cavity, named(_inside_groove(bellows, indent), CAVITY))
+
+
+def _section_name(face: cq.Face, own: str) -> str:
+    """Name of a face of the cell's tendon: its ends are middles of gaps."""
+    return GAP_MIDDLE if abs(face.normalAt().x) > 0.5 else own
+
+
+def full_body(bellows: BellowsParameters, indent: Indent | None) -> NamedSolid:
+    """The whole actuator with its cavity closed (no port); faces as in :func:`half_body`."""
+    return cut(_outer(bellows, indent), _cavity(bellows, indent))
+
+
+def _outer(bellows: BellowsParameters, indent: Indent | None) -> NamedSolid:
+    outer = fused(_tendon(bellows), *_repeated(_bubble(bellows), bellows, OUTSIDE))
+    if indent is None or indent.side == "inside":
+        return outer
+    indent.check_fits(bellows)
+    groove = _outside_groove(indent, bellows.bubble_width / 2 + BEYOND)
+    return cut(outer, *_repeated(groove, bellows, OUTSIDE))
+
+
+def _tendon(bellows: BellowsParameters) -> NamedSolid:
+    half = bellows.tendon_width / 2
+    solid = box((0, -half, 0), (bellows.length, half, bellows.tendon_height))
+    return named(solid, OUTSIDE).renamed(_end_name)
+
+
+def _end_name(face: cq.Face, own: str) -> str:
+    """Name of a face of the tendon's box: its two ends are root and tip."""
+    along = face.normalAt().x
+    return ROOT if along < -0.5 else TIP if along > 0.5 else own
+
+
+def _bubble(bellows: BellowsParameters) -> cq.Solid:
+    """A bubble about x = 0, rounded on all edges but those it stands on: flat on the print bed.
+
+    Rounding these too would leave an overhang that starts at the bed, and a cusp where the round
+    touches the tendon's flat bottom; it moves the angle by less than 0.5 % for Prototype 1.
+    """
+    length, width, height = bellows.bubble_size
+    below = bellows.bubble_fillet + BEYOND
+    lower, upper = (-length / 2, -width / 2, -below), (length / 2, width / 2, height)
+    rounded = named(rounded_box(lower, upper, bellows.bubble_fillet), OUTSIDE)
+    under = box((-length, -width, -2 * below), (length, width, 0))
+    return cut(rounded, named(under, OUTSIDE)).solid
+
+
+def _cavity(bellows: BellowsParameters, indent: Indent | None) -> NamedSolid:
+    """All the air inside as one solid: the chambers and the channel that joins them."""
+    cavity = fused(_channel(bellows), *_repeated(_chamber(bellows), bellows, CAVITY))
+    if indent is None or indent.side == "outside":
+        return cavity
+    indent.check_fits(bellows)
+    return fused(cavity, *_repeated(_inside_groove(bellows, indent), bellows, CAVITY))
+
+
+def _chamber(bellows: BellowsParameters) -> cq.Solid:
+    """The air in a bubble about x = 0."""
+    length, width, height = bellows.chamber_size
+    floor = bellows.bubble_thickness
+    lower, upper = (-length / 2, -width / 2, floor), (length / 2, width / 2, floor + height)
+    return rounded_box(lower, upper, bellows.chamber_fillet)
+
+
+def _channel(bellows: BellowsParameters) -> NamedSolid:
+    """Air channel, from its wall at the root into the last chamber.
+
+    Ending inside the chamber leaves that bubble's end wall whole: the tip is closed. A channel no
+    deeper than the chamber's floor ends in mid-air, so its end needs no rounding.
+    """
+    half, wall = bellows.channel_width / 2, bellows.tendon_thickness
+    radius, last = bellows.channel_fillet, bellows.bubble_middles[-1]
+    lower, upper = (wall, -half, wall), (last + radius / 2, half, bellows.tendon_height - wall)
+    if wall < bellows.bubble_thickness:
+        return named(rounded_box(lower, upper, radius), CAVITY)
+    longer = rounded_box(lower, (upper[0] + BEYOND + radius, *upper[1:]), radius)
+    return cut(named(longer, CAVITY), named(_half_space_beyond(last, bellows), CAVITY))
+
+
+def _half_space_beyond(x: float, bellows: BellowsParameters) -> cq.Solid:
+    """Everything of the actuator's neighbourhood beyond ``x``, mm."""
+    width, height = bellows.bubble_width, bellows.bubble_height
+    return box((x, -width, -height), (x + bellows.length, width, 2 * height))
+
+
+def _repeated(solid: cq.Solid, bellows: BellowsParameters, name: str) -> list[NamedSolid]:
+    """``solid`` (built about x = 0) at the middle of every bubble."""
+    places = (cq.Location(cq.Vector(x, 0, 0)) for x in bellows.bubble_middles)
+    return [named(solid.moved(place), name) for place in places]
+
+
+def _outside_groove(indent: Indent, half: float) -> cq.Solid:
+    """What an outside indent takes from the bottom, about x = 0, from y = -half to half (mm)."""
+    edges = _arc_profile(indent) if indent.shape == "arc" else _rectangle_profile(indent)
+    return prism(cq.Wire.assembleEdges(edges), -half, half)
+
+
+def _segments(*points: tuple[float, float]) -> list[cq.Edge]:
+    """Straight edges from point to point (x, z) in the plane y = 0."""
+    corners = [cq.Vector(x, 0, z) for x, z in points]
+    return [cq.Edge.makeLine(a, b) for a, b in itertools.pairwise(corners)]
+
+
+def _bend(*points: tuple[float, float]) -> cq.Edge:
+    """Circular edge through three points (x, z) in the plane y = 0."""
+    return cq.Edge.makeThreePointArc(*(cq.Vector(x, 0, z) for x, z in points))
+
+
+def _arc_profile(indent: Indent) -> list[cq.Edge]:
+    half = indent.width / 2
+    below = _segments((half, 0), (half, -BEYOND), (-half, -BEYOND), (-half, 0))
+    return [_bend((-half, 0), (0, indent.depth), (half, 0)), *below]
+
+
+def _rectangle_profile(indent: Indent) -> list[cq.Edge]:
+    half, top, r = indent.width / 2, indent.depth, indent.fillet
+    if r == 0:
+        return _segments(
+            (-half, -BEYOND), (-half, top), (half, top), (half, -BEYOND), (-half, -BEYOND)
+        )
+    inset = r * (1 - math.sqrt(0.5))
+    left = _bend((-half, top - r), (-half + inset, top - inset), (-half + r, top))
+    right = _bend((half - r, top), (half - inset, top - inset), (half, top - r))
+    roof = _segments((-half + r, top), (half - r, top)) if half - r > 1e-9 else []
+    below = _segments((half, top - r), (half, -BEYOND), (-half, -BEYOND), (-half, top - r))
+    return [left, *roof, right, *below]
+
+
+def _inside_groove(bellows: BellowsParameters, indent: Indent) -> cq.Solid:
+    """What an inside indent takes from the chamber's floor, about x = 0."""
+    x, y, z = indent.inside_size(bellows)
+    bottom = bellows.bubble_thickness - indent.depth
+    radius = snapped_radius(indent.fillet, min(x, y, z) / 2)
+    return rounded_box((-x / 2, -y / 2, bottom), (x / 2, y / 2, bottom + z), radius)
+
+
+def _port_boss(bellows: BellowsParameters, port: Port) -> NamedSolid:
+    """Outside of the socket: round above, flat-sided below so that it stands on the bed.
+
+    It reaches past the root's face by its wall, which keeps that wall around the socket's end;
+    where that would leave less than a line's gap, it joins the first bubble.
+    """
+    reach = port.wall
+    if bellows.root_length - reach < SMALLEST_FEATURE:
+        reach = bellows.root_length + bellows.bubble_thickness / 2
+    radius, axis = port.tube_diameter / 2 + port.wall, port.axis_height
+    round_part = _cylinder_x(radius, axis, -port.depth, reach)
+    foot = box((-port.depth, -radius, 0), (reach, radius, axis))
+    return fused(named(round_part, OUTSIDE), named(foot, OUTSIDE))
+
+
+def _port_bore(bellows: BellowsParameters, port: Port) -> tuple[NamedSolid, NamedSolid]:
+    """The socket down to the root's face, and the hole that leads on into the channel."""
+    socket = _cylinder_x(port.tube_diameter / 2, port.axis_height, -port.depth - BEYOND, 0)
+    inward = bellows.tendon_thickness + bellows.channel_fillet + SMALLEST_FEATURE
+    hole = _cylinder_x(port.hole_radius(bellows), port.hole_height(bellows), -BEYOND / 2, inward)
+    return named(socket, PORT), named(hole, CAVITY)
+
+
+def _cylinder_x(radius: float, height: float, start: float, stop: float) -> cq.Solid:
+    """Cylinder about the line y = 0, z = ``height``, from x = ``start`` to ``stop``, mm."""
+    base = cq.Vector(start, 0, height)
+    return cq.Solid.makeCylinder(radius, stop - start, base, cq.Vector(1, 0, 0))

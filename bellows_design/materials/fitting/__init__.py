@@ -1,0 +1,1 @@
+"""Constants of a material law from measured stress over stretch."""

@@ -1,0 +1,1 @@
+"""Designs of the literature, to be computed again."""

@@ -1,0 +1,1 @@
+"""What is measured on a triangle mesh: walls, gaps, shells, leaks."""

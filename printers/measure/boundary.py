@@ -1,0 +1,66 @@
+"""The surface everything is measured on, split into the inside of the cavity and the outside."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from printers.measure.plugging import near_axis
+from printers.measure.shells import Shells
+from printers.measure.surface import Samples, Surface, sample
+from printers.model import Opening
+
+SAMPLES_PER_SQUARE_MILLIMETRE = 4.0
+SAMPLE_BOUNDS = (4_000, 60_000)
+
+
+@dataclass(frozen=True)
+class Boundary:
+    """A part with its openings plugged.
+
+    `bore_depth` mm: how far behind its mouth an opening's bore is left out of every measurement,
+    because the material around it ends at the mouth and is no wall.
+    """
+
+    shells: Shells
+    openings: tuple[Opening, ...]
+    bore_depth: float
+
+    @property
+    def surface(self) -> Surface:
+        return self.shells.surface
+
+    @property
+    def has_cavity(self) -> bool:
+        return bool(self.shells.voids)
+
+    @cached_property
+    def of_cavity(self) -> NDArray[np.bool_]:
+        """(m,): triangles of the cavity's wall."""
+        return np.isin(self.surface.shell_of_triangle, list(self.shells.voids))
+
+    @cached_property
+    def samples(self) -> Samples:
+        """Points spread evenly over the whole surface but for the openings."""
+        everywhere = sample(self.surface, SAMPLES_PER_SQUARE_MILLIMETRE, SAMPLE_BOUNDS)
+        return everywhere.chosen(~self.at_openings(everywhere.points))
+
+    @property
+    def inside(self) -> Samples:
+        """The samples on the cavity's wall."""
+        return self.samples.chosen(self.of_cavity[self.samples.triangle])
+
+    @property
+    def outside(self) -> Samples:
+        """The samples on the outside."""
+        return self.samples.chosen(~self.of_cavity[self.samples.triangle])
+
+    def at_openings(self, points: NDArray[np.float64]) -> NDArray[np.bool_]:
+        """(k,): which points (k, 3) lie on a plug or in a bore right behind its mouth."""
+        result = np.zeros(len(points), dtype=bool)
+        for opening in self.openings:
+            result |= near_axis(points, opening, self.bore_depth)
+        return result

@@ -1,0 +1,67 @@
+"""Closing the declared openings of a part with small solid plugs."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from printers.measure.surface import Surface, merged_surface
+from printers.model import Opening
+
+if TYPE_CHECKING:
+    from manifold3d import Manifold
+
+PLUG_MARGIN = 0.1  # mm wider than the bore: more than a facet's chord error, less than a line
+PLUG_SIDES = 64
+
+
+def plugged(surface: Surface, openings: Sequence[Opening]) -> Surface:
+    """The surface of the part with a plug in every opening.
+
+    A plug is a cylinder around the mouth's axis, reaching one radius into and out of the part.
+    Raises ValueError if the surface is not closed and evenly oriented.
+    """
+    from manifold3d import Manifold, Mesh64
+
+    solid = Manifold(Mesh64(surface.vertices, surface.triangles.astype(np.uint64)))
+    if solid.status().name != "NoError":
+        raise ValueError(f"the mesh bounds no solid ({solid.status().name}); it cannot be plugged")
+    for opening in openings:
+        solid = solid + _plug(opening)
+    mesh = solid.to_mesh64()
+    return merged_surface(mesh.vert_properties[:, :3], mesh.tri_verts.astype(np.int64))
+
+
+def near_axis(points: NDArray[np.float64], opening: Opening, depth: float) -> NDArray[np.bool_]:
+    """(k,): which points (k, 3) lie in the plug or up to `depth` mm behind the mouth."""
+    axis = np.asarray(opening.direction) / np.linalg.norm(opening.direction)
+    offset = points - np.asarray(opening.centre)
+    along = offset @ axis
+    beside = np.linalg.norm(offset - along[:, None] * axis, axis=1)
+    slack = 1e-3
+    within = beside <= opening.radius + PLUG_MARGIN + slack
+    return (
+        within & (along >= -max(depth, opening.radius) - slack) & (along <= opening.radius + slack)
+    )
+
+
+def _plug(opening: Opening) -> Manifold:
+    from manifold3d import Manifold
+
+    cylinder = Manifold.cylinder(
+        2 * opening.radius, opening.radius + PLUG_MARGIN, -1.0, PLUG_SIDES, True
+    )
+    frame = np.column_stack([_frame(np.asarray(opening.direction)), opening.centre])
+    return cylinder.transform(frame)
+
+
+def _frame(direction: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(3, 3): a right-handed frame whose third column is the direction."""
+    axis = direction / np.linalg.norm(direction)
+    helper = np.eye(3)[np.abs(axis).argmin()]
+    first = np.cross(helper, axis)
+    first /= np.linalg.norm(first)
+    return np.column_stack([first, np.cross(axis, first), axis])

@@ -1,0 +1,1 @@
+"""One file for each family of rules; every rule turns measurements into results."""

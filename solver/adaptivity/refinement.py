@@ -1,0 +1,99 @@
+"""Where a mesh should be finer: sizes of the next mesh from the errors of a solution.
+
+Two demands, the stricter of which counts in each element:
+
+- *energy*: the difference between an element's stress and the smoothed one (Zienkiewicz and Zhu,
+  1987), as its norm over the element, shall be alike in all elements. This serves displacements
+  and angles.
+- *peak*: where the stress comes near its highest, the difference itself shall be a small share of
+  that. This serves the reported stress.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from solver.arrays import Reals
+from solver.mesh.elements import TETRAHEDRON_EDGES
+from solver.mesh.mesh import Mesh
+from solver.results.sharp_edges import trusted_nodes
+from solver.results.solution import Solution
+from solver.results.stress import ElementStress, element_stress, von_mises
+
+
+@dataclass(frozen=True)
+class Refinement:
+    """How much finer the next mesh may get.
+
+    - ``growth``: elements asked for by the energy demand, in multiples of those at hand.
+    - ``peak_tolerance``: stress difference asked for near the peak, as a share of the peak.
+    - ``near_peak``: share of the peak from which on a place counts as near it.
+    """
+
+    growth: float = 3.0
+    peak_tolerance: float = 0.04
+    near_peak: float = 0.75
+
+
+STEP = 0.01
+"""Sizes are rounded to steps of this ratio: rounding errors of the solution, which differ from run
+to run, shall not make another mesh."""
+
+FINEST, COARSEST = 1 / 3, 1.3
+"""Bounds of an element's new size in units of its old one: one solution tells no more."""
+
+ENERGY_ORDER, STRESS_ORDER = 7 / 2, 2.0
+"""Powers of the size in an element's error: stress of second order over a volume, or at a point."""
+
+
+def refined_sizes(solution: Solution, refinement: Refinement) -> Reals:
+    """Edge lengths the next mesh should have at the corners of this one, (n,), mm; 1 elsewhere."""
+    mesh = solution.problem.mesh
+    stress = element_stress(solution)
+    ratio = np.minimum(
+        _energy_ratios(mesh, stress, refinement.growth), _peak_ratios(solution, stress, refinement)
+    )
+    sizes = np.log(ratio * mean_edges(mesh))
+    corners = mesh.tets[:, :4]
+    total = np.bincount(corners.ravel(), np.repeat(sizes, 4), len(mesh.nodes))
+    count = np.bincount(corners.ravel(), minlength=len(mesh.nodes))
+    steps = np.round(total / np.maximum(count, 1) / STEP)
+    at_nodes: Reals = np.exp(STEP * steps)
+    return at_nodes
+
+
+def mean_edges(mesh: Mesh) -> Reals:
+    """Mean length of the straight edges of each element, (e,), mm."""
+    corners = mesh.nodes[mesh.tets[:, :4]]
+    lengths = [np.linalg.norm(corners[:, a] - corners[:, b], axis=1) for a, b in TETRAHEDRON_EDGES]
+    mean: Reals = np.mean(lengths, axis=0)
+    return mean
+
+
+def _energy_ratios(mesh: Mesh, stress: ElementStress, growth: float) -> Reals:
+    """New over old sizes (e,) that spread the error evenly over ``growth`` times the elements."""
+    squares = (von_mises(stress.jumps) ** 2).mean(axis=1)
+    error = np.sqrt(np.maximum(squares * stress.volumes, 1e-300))
+
+    def ratios(target: float) -> Reals:
+        return np.clip((target / error) ** (1 / ENERGY_ORDER), FINEST, COARSEST)
+
+    low, high = error.min() * 1e-6, error.max() * 1e6
+    for _ in range(60):  # bisection: fewer elements the higher the target
+        target = np.sqrt(low * high)
+        enough = (ratios(target) ** -3).sum() > growth * len(mesh.tets)
+        low, high = (target, high) if enough else (low, target)
+    return ratios(high)
+
+
+def _peak_ratios(solution: Solution, stress: ElementStress, refinement: Refinement) -> Reals:
+    """New over old sizes (e,) that resolve the peak; no demand elsewhere."""
+    trusted = trusted_nodes(solution.problem)[solution.problem.mesh.tets]
+    level = np.where(trusted, von_mises(stress.smoothed), 0.0)
+    jumps = np.where(trusted, von_mises(stress.jumps), 0.0)
+    peak = level.max()
+    near = (peak > 0) & ((level + jumps).max(axis=1) >= refinement.near_peak * peak)
+    wanted = refinement.peak_tolerance * peak / np.maximum(jumps.max(axis=1), 1e-300)
+    return np.where(near, np.clip(wanted ** (1 / STRESS_ORDER), FINEST, COARSEST), COARSEST)

@@ -1,0 +1,121 @@
+"""Carry a solution to another mesh of the same body, to start Newton from there."""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit, prange
+from numpy.typing import NDArray
+
+from solver.arrays import Integers, Reals
+from solver.mesh.elements import TETRAHEDRON_EDGES, quadratic_shapes
+from solver.mesh.mesh import Mesh
+from solver.results.solution import Solution
+
+CANDIDATES = 24
+
+OUTSIDE = 0.02
+"""A point this far outside in barycentric coordinates is in: two meshes of one curved body differ
+by more, and the extrapolation is as good as the interpolation."""
+
+
+def transfer(solution: Solution, finer_mesh: Mesh) -> tuple[Reals, Reals]:
+    """Displacement (n, 3) and hydrostatic pressure (v,) of a solution on another mesh.
+
+    Interpolates with the shape functions of the element each node lies in; a node slightly
+    outside of the old mesh takes the extrapolation of the element it is least outside of. Pass
+    the result as ``initial`` to ``solver.solve``.
+    """
+    mesh = solution.problem.mesh
+    element, barycentric = locate(mesh, finer_mesh.nodes)
+    shapes = quadratic_shapes(barycentric, TETRAHEDRON_EDGES)
+    displacement = np.einsum("na,nai->ni", shapes, solution.displacement[mesh.tets[element]])
+    corners = solution.hydrostatic_pressure[mesh.tet_vertices[element]]
+    pressure = np.einsum("na,na->n", barycentric, corners)
+    return displacement, pressure[finer_mesh.vertices]
+
+
+def locate(mesh: Mesh, points: Reals) -> tuple[NDArray[np.int64], Reals]:
+    """The element each point (k, 3) lies in, (k,), and barycentric coordinates in it, (k, 4)."""
+    from scipy.spatial import cKDTree
+
+    centres = mesh.nodes[mesh.tets].mean(axis=1)
+    count = min(CANDIDATES, len(centres))
+    _, near = cKDTree(centres).query(points, k=count)
+    element = np.zeros(len(points), np.int64)
+    barycentric = np.empty((len(points), 4))
+    near = near.reshape(len(points), count)
+    _locate(mesh.nodes, mesh.tets, points, near, element, barycentric)
+    return element, barycentric
+
+
+@njit(cache=True, error_model="numpy", parallel=True)
+def _locate(
+    nodes: Reals,
+    tets: Integers,
+    points: Reals,
+    near: NDArray[np.int64],
+    element: NDArray[np.int64],
+    barycentric: Reals,
+) -> None:
+    """Of the elements ``near`` (k, c) each point, the one it is in or least outside of."""
+    for p in prange(len(points)):
+        best = -np.inf
+        for candidate in near[p]:
+            local = _inverse_map(nodes[tets[candidate]], points[p])
+            inside = local.min()
+            if inside > best:
+                best = inside
+                element[p] = candidate
+                barycentric[p] = local
+            if best >= -OUTSIDE:
+                break
+
+
+@njit(cache=True, error_model="numpy")
+def _inverse_map(x: Reals, point: Reals) -> Reals:
+    """Barycentric coordinates (4,) of a point in the ten-node tetrahedron x (10, 3), by Newton."""
+    edge_a = np.array([0, 1, 0, 0, 2, 1])
+    edge_b = np.array([1, 2, 2, 3, 3, 3])
+    local = np.full(4, 0.25)
+    slopes = np.empty((4, 3))  # dX / dL_k
+    step = np.empty(3)
+    for _ in range(20):
+        position = np.zeros(3)
+        slopes[:] = 0.0
+        for k in range(4):
+            position += local[k] * (2.0 * local[k] - 1.0) * x[k]
+            slopes[k] += (4.0 * local[k] - 1.0) * x[k]
+        for e in range(6):
+            a, b = edge_a[e], edge_b[e]
+            position += 4.0 * local[a] * local[b] * x[4 + e]
+            slopes[a] += 4.0 * local[b] * x[4 + e]
+            slopes[b] += 4.0 * local[a] * x[4 + e]
+        _solve3(slopes, point - position, step)
+        local[1:] += step
+        local[0] -= step.sum()
+        largest = max(abs(step[0]), abs(step[1]), abs(step[2]))
+        if largest < 1e-10:
+            return local
+        if not largest < 1e3:
+            break
+    return np.full(4, -1e3)  # far outside of a curved element: the map has no inverse there
+
+
+@njit(cache=True, error_model="numpy")
+def _solve3(slopes: Reals, gap: Reals, step: Reals) -> None:
+    """Changes of L1, L2, L3 (3,) that move a point by ``gap`` (3,); ``slopes`` (4, 3) = dX / dL."""
+    a, b, c = slopes[1] - slopes[0], slopes[2] - slopes[0], slopes[3] - slopes[0]
+    determinant = _triple(a, b, c)
+    step[0] = _triple(gap, b, c) / determinant
+    step[1] = _triple(a, gap, c) / determinant
+    step[2] = _triple(a, b, gap) / determinant
+
+
+@njit(cache=True, error_model="numpy")
+def _triple(a: Reals, b: Reals, c: Reals) -> float:
+    """a . (b x c)."""
+    return (
+        a[0] * (b[1] * c[2] - b[2] * c[1])
+        + a[1] * (b[2] * c[0] - b[0] * c[2])
+        + a[2] * (b[0] * c[1] - b[1] * c[0])
+    )

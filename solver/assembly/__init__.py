@@ -1,0 +1,1 @@
+"""Residual and tangent of a problem at a state."""

@@ -1,0 +1,209 @@
+"""Residual and tangent of a problem at a state, assembled straight into CSR values."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from solver.arrays import Integers, Reals
+from solver.assembly.contact import Touches
+from solver.assembly.moving_plane import MovingPlane
+from solver.assembly.pressure import Skin, assemble_pressure, assemble_volume, skin
+from solver.assembly.state import State
+from solver.kernels import kernels
+from solver.linear.sparsity import Pattern, chunks, upper_pattern
+from solver.mesh.elements import tetrahedron_rule
+from solver.mesh.mesh import Mesh
+from solver.problem.loads import couple, nodal_forces
+from solver.problem.problem import Problem, Supports
+from solver.problem.supports import Numbering, number_unknowns
+
+
+@dataclass(frozen=True)
+class Equilibrium:
+    """How far a state is from equilibrium, over the unknowns (m,).
+
+    ``residual`` is internal minus external force (N) and constraint violation (mm^3); ``force``
+    its derivative with respect to the applied pressure (mm^2); ``tangent`` the CSR values of its
+    derivative with respect to the unknowns, in ``pattern``, empty if not asked for.
+    ``smallest_jacobian`` is the least J of all quadrature points; the rest is meaningless unless it
+    is positive.
+    """
+
+    residual: Reals
+    force: Reals
+    tangent: Reals
+    smallest_jacobian: float
+    pattern: Pattern
+
+    @property
+    def admissible(self) -> bool:
+        """No element is turned inside out and every number is finite."""
+        finite = np.isfinite(self.residual).all() and np.isfinite(self.tangent).all()
+        return bool(self.smallest_jacobian > 0 and finite)
+
+
+class Assembly:
+    """A problem with everything that depends on its mesh alone: numbering, pattern, places."""
+
+    problem: Problem
+    numbering: Numbering
+    pattern: Pattern
+
+    def __init__(self, problem: Problem) -> None:
+        mesh = problem.mesh
+        self.problem = problem
+        surface = problem.moving_plane
+        self.plane = None if surface is None else MovingPlane.of(mesh, surface)
+        self.numbering = number_unknowns(mesh, problem.supports, problem.moving_plane)
+        check_orientation(mesh)
+        dofs = self.numbering.of_tets(mesh)
+        at_plane = _touching(mesh.tets, self.plane)
+        plane_dofs = self._with_plane(dofs[at_plane])
+        self.pattern = upper_pattern(_joined(dofs, at_plane, plane_dofs), self.numbering.size)
+        order = chunks(mesh, np.flatnonzero(~at_plane))
+        self._places = kernels.Places(*order, dofs, self.pattern.entries(dofs))
+        self._at_plane = np.flatnonzero(at_plane).astype(np.int32)
+        self._plane_dofs, self._plane_entries = plane_dofs, self.pattern.entries(plane_dofs)
+        self._solid = solid(problem)
+        self.dead_force = self.numbering.gather(nodal_forces(mesh, problem.loads))
+        if self.plane is not None:
+            self.dead_force[self.numbering.plane[0]] += couple(problem.loads)
+        self._skin = self._pressurised_skin()
+        self.touches = Touches(problem, self.numbering, self.plane, self.pattern)
+
+    def evaluate(
+        self, state: State, pressure: float, tangent: bool = True, load: float = 0.0
+    ) -> Equilibrium:
+        """Residual and tangent at ``state`` under ``pressure`` (MPa) and a share of dead loads."""
+        residual = np.zeros(self.numbering.size)
+        force = np.zeros(self.numbering.size)
+        values = np.zeros(len(self.pattern.indices) if tangent else 0)
+        jacobians = np.empty(len(self.problem.mesh.tets))
+        displacement = np.ascontiguousarray(state.displacement)
+        kernels.assemble(
+            self._solid, self._places, displacement, state.hydrostatic_pressure,
+            self._geometric(state), tangent, residual, values, jacobians,
+        )  # fmt: skip
+        if self.plane is None:
+            assemble_pressure(self._skin, displacement, pressure, tangent, force, values)
+        else:
+            heights = self.plane.heights(state)
+            kernels.assemble_plane(
+                self._solid, self._at_plane, heights, state.plane[0], self._plane_dofs,
+                self._plane_entries, displacement, state.hydrostatic_pressure,
+                tangent, residual, values, jacobians,
+            )  # fmt: skip
+            assemble_volume(
+                self._skin, heights, state.plane[0], displacement, pressure, tangent, force, values
+            )
+        residual += pressure * force - load * self.dead_force
+        values, pattern = self.touches.add(state, tangent, residual, values)
+        return Equilibrium(residual, force, values, float(jacobians.min(initial=np.inf)), pattern)
+
+    def extrapolated_stress(self, state: State, increment: State) -> Reals:
+        """Stress after an increment from a state, to first order: a ``State.geometric_stress``.
+
+        For problems without a moving plane.
+        """
+        stress = np.empty((len(self.problem.mesh.tets), len(self._solid.weights), 6))
+        kernels.extrapolated_stress(
+            self._solid, np.ascontiguousarray(state.displacement), state.hydrostatic_pressure,
+            np.ascontiguousarray(increment.displacement), increment.hydrostatic_pressure, stress,
+        )  # fmt: skip
+        return stress
+
+    def energy(self, state: State) -> float:
+        """Pi of the solid and its contacts, N mm: its gradient is the residual at zero pressure."""
+        solid = kernels.total_energy(self._solid, state.displacement, state.hydrostatic_pressure)
+        return float(solid[0]) + self.touches.energy(state)
+
+    def _geometric(self, state: State) -> Reals:
+        """A state's geometric stress as the kernels want it: (e, 0, 6) for none."""
+        stress = state.geometric_stress
+        return stress if len(stress) else np.empty((len(self.problem.mesh.tets), 0, 6))
+
+    def _with_plane(self, dofs: Integers) -> Integers:
+        """The dofs (e, m) of cells with those of the moving plane at the end, (e, m + 2)."""
+        plane = np.broadcast_to(self.numbering.plane, (len(dofs), 2))
+        return np.hstack([dofs, plane])
+
+    def _pressurised_skin(self) -> Skin:
+        triangles = self.problem.mesh.triangles(*self.problem.pressurised)
+        dofs = self.numbering.of_triangles(triangles)
+        if self.plane is not None:
+            dofs = self._with_plane(dofs)
+        return skin(self.problem.mesh, triangles, dofs, self.pattern.entries(dofs))
+
+
+def unbalanced_forces(problem: Problem, state: State, pressure: float, load: float) -> Reals:
+    """Nodal forces (n, 3) in N that are missing to equilibrium: zero but where supports act.
+
+    Under ``pressure`` (MPa) and the fraction ``load`` of the dead loads.
+    """
+    mesh = problem.mesh
+    everything = number_unknowns(mesh, NO_SUPPORTS)
+    dofs = everything.of_tets(mesh)
+    places = kernels.Places(*chunks(mesh), dofs, np.empty((len(dofs), 0), np.int32))
+    residual, force, nothing = np.zeros(everything.size), np.zeros(everything.size), np.zeros(0)
+    displacement = np.ascontiguousarray(state.displacement)
+    kernels.assemble(
+        solid(problem), places, displacement, state.hydrostatic_pressure,
+        np.empty((len(mesh.tets), 0, 6)), False, residual, nothing, np.empty(len(mesh.tets)),
+    )  # fmt: skip
+    triangles = mesh.triangles(*problem.pressurised)
+    no_entries = np.empty((len(triangles), 0), np.int32)
+    loaded = skin(mesh, triangles, everything.of_triangles(triangles), no_entries)
+    assemble_pressure(loaded, displacement, pressure, False, force, nothing)
+    forces, _, _ = everything.expand(residual + pressure * force)
+    return forces - load * nodal_forces(mesh, problem.loads)
+
+
+NO_SUPPORTS = Supports()
+
+
+def _touching(tets: Integers, plane: MovingPlane | None) -> NDArray[np.bool_]:
+    """Which elements have a node on the moving plane, (e,)."""
+    nodes = () if plane is None else plane.nodes
+    return np.asarray(np.isin(tets, nodes).any(axis=1))
+
+
+def _joined(dofs: Integers, at_plane: NDArray[np.bool_], plane_dofs: Integers) -> Integers:
+    """The dofs of all elements (e, 36): those ``at_plane`` also have the plane's."""
+    joined = np.full((len(dofs), plane_dofs.shape[1]), -1, np.int32)
+    joined[:, : dofs.shape[1]] = dofs
+    joined[at_plane] = plane_dofs
+    return joined
+
+
+def solid(problem: Problem) -> kernels.Solid:
+    """Mesh, material and quadrature of a problem as the kernels see them."""
+    mesh, material, rule = problem.mesh, problem.material, tetrahedron_rule()
+    mu, alpha = material.coefficients
+    return kernels.Solid(
+        nodes=mesh.nodes,
+        tets=mesh.tets,
+        tet_vertices=mesh.tet_vertices,
+        mu=mu,
+        alpha=alpha,
+        higher=material.higher_coefficients,
+        compliance=material.compliance,
+        logarithmic=material.volumetric == "logarithmic",
+        gradients=rule.gradients,
+        linear=rule.linear,
+        weights=rule.weights,
+    )
+
+
+def check_orientation(mesh: Mesh) -> None:
+    """Raise ``ValueError`` if a tetrahedron has no positive volume at a quadrature point."""
+    tangents = np.einsum("qad,eai->eqdi", tetrahedron_rule().gradients, mesh.nodes[mesh.tets])
+    smallest = np.linalg.det(tangents).min(axis=1)
+    if not (smallest > 0).all():
+        worst = int(smallest.argmin())
+        raise ValueError(
+            f"mesh: tetrahedron {worst} is turned inside out "
+            f"(Jacobian {smallest[worst]:.3g} mm^3, must be positive)."
+        )

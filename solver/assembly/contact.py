@@ -1,0 +1,398 @@
+"""Unilateral contact, without friction, with planes behind which a mirror image stands.
+
+Two bodies that mirror each other touch in the plane between them, so it is enough that no point
+crosses it. With g the signed distance of a point from its plane, positive where the body may be,
+and d = -g, the contact energy per reference area is
+
+    psi(d) = k d^3 / (6 s)                      for 0 < d < s,
+             k (d^2 / 2 - s d / 2 + s^2 / 6)    beyond,            0 for d <= 0,
+
+a penalty of stiffness k (MPa/mm) that sets in over the depth s: pressure -dpsi/dg and its slope are
+continuous, so that Newton's method meets no jump. It is integrated by the six-point rule over the
+surface as it was at first. All planes are written as g = n . x + c. A fixed one has constant n and
+c; the moving one (``solver.assembly.moving_plane``) has
+
+    n = (-cos t, 0, sin t),   c = (L + shift) cos t,   t = tilt,
+
+whose derivatives go into the unknowns tilt and shift. A node on that plane then has g = 0 whatever
+the unknowns are. Residual and tangent are derivatives of the energy, so the tangent is symmetric.
+Where nothing touches nothing is added, not even zeros.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from solver.arrays import Integers, Reals
+from solver.assembly.moving_plane import MovingPlane
+from solver.assembly.state import State
+from solver.kernels.kernels import mirror_upper, scatter, to_plane_unknowns
+from solver.linear.sparsity import Pattern, widened
+from solver.mesh.elements import triangle_rule
+from solver.mesh.mesh import Mesh
+from solver.mesh.proximity import OPPOSING, facet_normals
+from solver.problem.problem import Contact, Problem
+from solver.problem.supports import Numbering
+
+UNKNOWNS = 20
+"""Of a triangle: three for each of six nodes, then tilt and shift of the moving plane."""
+
+SMOOTHING = 0.1
+"""s over the penetration that a contact asks for."""
+
+SOFTENING = 30.0
+"""Times softer a contact is while a load is tried again that could not be reached otherwise."""
+
+INITIAL_CROSSING = 1e-6
+"""How far a surface may lie beyond its plane at first, in body diagonals: rounding."""
+
+
+class Face(NamedTuple):
+    """Triangles that may touch a plane, as the kernels see them.
+
+    ``nodes`` (n, 3), ``triangles`` (k, 6), quadratic ``shapes`` (q, 6), reference ``areas`` (k, q)
+    that the quadrature points stand for, ``dofs`` (k, 20), ``stiffness`` (MPa/mm) and
+    ``smoothing`` (mm).
+    """
+
+    nodes: Reals
+    triangles: Integers
+    shapes: Reals
+    areas: Reals
+    dofs: Integers
+    stiffness: float
+    smoothing: float
+
+
+class Plane(NamedTuple):
+    """g = n . x + c with its derivatives: by tilt (``turned``), twice by tilt, by shift, by both.
+
+    Each of the first three is (4,): n and c.
+    """
+
+    equation: Reals
+    turned: Reals
+    turned_twice: Reals
+    shifted: float
+    shifted_turned: float
+
+
+@njit(cache=True, error_model="numpy")
+def contact_law(gap: float, stiffness: float, smoothing: float) -> tuple[float, float, float]:
+    """psi (N/mm), pressure -dpsi/dg (MPa) and its slope d2psi/dg2 (MPa/mm) at a signed gap, mm."""
+    depth = -gap
+    if depth <= 0.0:
+        return 0.0, 0.0, 0.0
+    if depth < smoothing:
+        slope = stiffness * depth / smoothing
+        return slope * depth * depth / 6.0, slope * depth / 2.0, slope
+    energy = stiffness * (depth * (depth - smoothing) / 2.0 + smoothing * smoothing / 6.0)
+    return energy, stiffness * (depth - smoothing / 2.0), stiffness
+
+
+@njit(cache=True, error_model="numpy")
+def face_energy(face: Face, plane: Plane, displacement: Reals) -> float:
+    """Contact energy of a face, N mm."""
+    energy = 0.0
+    for triangle in range(face.triangles.shape[0]):
+        nodes = face.triangles[triangle]
+        x = face.nodes[nodes] + displacement[nodes]
+        for point in range(face.shapes.shape[0]):
+            gap = plane.equation[3]
+            for a in range(6):
+                for i in range(3):
+                    gap += face.shapes[point, a] * plane.equation[i] * x[a, i]
+            energy += (
+                face.areas[triangle, point] * contact_law(gap, face.stiffness, face.smoothing)[0]
+            )
+    return energy
+
+
+@njit(cache=True, error_model="numpy")
+def triangle_response(
+    face: Face, triangle: int, plane: Plane, x: Reals, r: Reals, k: Reals
+) -> bool:
+    """Residual r (20,) and upper half of the tangent k (20, 20) of one triangle; False if zero.
+
+    ``x`` (6, 3) deformed nodes, mm. Unknowns are positions of nodes, tilt and shift.
+    """
+    gradient = np.empty(UNKNOWNS)
+    touches = False
+    for point in range(face.shapes.shape[0]):
+        gap, turned, curved = plane.equation[3], plane.turned[3], plane.turned_twice[3]
+        for a in range(6):
+            for i in range(3):
+                place = face.shapes[point, a] * x[a, i]
+                gap += place * plane.equation[i]
+                turned += place * plane.turned[i]
+                curved += place * plane.turned_twice[i]
+                gradient[3 * a + i] = face.shapes[point, a] * plane.equation[i]
+        gradient[18], gradient[19] = turned, plane.shifted
+        _, pressure, slope = contact_law(gap, face.stiffness, face.smoothing)
+        if pressure == 0.0:
+            continue
+        touches = True
+        area = face.areas[triangle, point]
+        for i in range(UNKNOWNS):
+            r[i] -= area * pressure * gradient[i]
+            for j in range(i, UNKNOWNS):
+                k[i, j] += area * slope * gradient[i] * gradient[j]
+        for a in range(6):
+            for i in range(3):
+                k[3 * a + i, 18] -= area * pressure * face.shapes[point, a] * plane.turned[i]
+        k[18, 18] -= area * pressure * curved
+        k[18, 19] -= area * pressure * plane.shifted_turned
+    return touches
+
+
+@njit(cache=True, error_model="numpy")
+def assemble_contact(
+    face: Face,
+    entries: Integers,
+    plane: Plane,
+    heights: Reals,
+    tilt: float,
+    displacement: Reals,
+    tangent: bool,
+    residual: Reals,
+    values: Reals,
+) -> None:
+    """Add a face's contact forces to ``residual`` (N) and the tangent to the CSR ``values``.
+
+    ``entries`` (k, 210) are the places in the values; ``heights`` (n,) of the nodes on the moving
+    plane, NaN for all others, and its ``tilt`` (rad).
+    """
+    r = np.empty(UNKNOWNS)
+    k = np.empty((UNKNOWNS, UNKNOWNS))
+    for triangle in range(face.triangles.shape[0]):
+        nodes = face.triangles[triangle]
+        r[:] = 0.0
+        k[:, :] = 0.0
+        x = face.nodes[nodes] + displacement[nodes]
+        if not triangle_response(face, triangle, plane, x, r, k):
+            continue
+        mirror_upper(k)
+        for a in range(6):
+            if not np.isnan(heights[nodes[a]]):
+                to_plane_unknowns(r, k, a, heights[nodes[a]], tilt)
+        scatter(r, k, face.dofs[triangle], entries[triangle], 1.0, tangent, residual, values)
+
+
+@dataclass(frozen=True)
+class Touch:
+    """One contact of a problem on its mesh."""
+
+    problem: Problem
+    contact: Contact
+    face: Face
+
+    @staticmethod
+    def of(problem: Problem, contact: Contact, numbering: Numbering) -> Touch:
+        """The contact with its triangles' quadrature and numbers of unknowns."""
+        mesh, rule = problem.mesh, triangle_rule()
+        triangles = mesh.triangles(contact.surface)
+        face = Face(
+            nodes=mesh.nodes,
+            triangles=triangles,
+            shapes=rule.quadratic,
+            areas=_areas(mesh, triangles),
+            dofs=_dofs(problem, contact, triangles, numbering),
+            stiffness=problem.material.shear_modulus / contact.penetration,
+            smoothing=SMOOTHING * contact.penetration,
+        )
+        return Touch(problem, contact, face)
+
+    def plane(self, state: State) -> Plane:
+        """Where the plane is now."""
+        return _plane_of(self.problem, self.contact, state)
+
+    def gaps(self, state: State) -> Reals:
+        """Signed distances of the quadrature points from the plane, (k, q), mm."""
+        *normal, constant = self.plane(state).equation
+        along = (self.face.nodes + state.displacement) @ np.array(normal)
+        gaps: Reals = along[self.face.triangles] @ self.face.shapes.T + constant
+        return gaps
+
+    def softer(self, factor: float) -> Touch:
+        """The same contact with ``factor`` times its penetration."""
+        depth = factor * self.contact.penetration
+        stiffness, smoothing = self.face.stiffness / factor, SMOOTHING * depth
+        face = self.face._replace(stiffness=stiffness, smoothing=smoothing)
+        return Touch(self.problem, replace(self.contact, penetration=depth), face)
+
+    def entries(self, pattern: Pattern | None) -> Integers:
+        """Places of the triangles' entries in a pattern, (k, 210); none without one."""
+        if pattern is None:
+            return np.empty((len(self.face.triangles), 0), np.int32)
+        return pattern.entries(self.face.dofs)
+
+    def touches(self, state: State) -> bool:
+        """True if a quadrature point is beyond the plane."""
+        return bool((self.gaps(state) < 0).any())
+
+
+class Touches:
+    """All contacts of a problem, and what they need of its tangent's pattern.
+
+    A surface that touches the moving plane couples with its tilt and shift. Places for that are
+    made only once something touches it: until then the pattern is the one without contact.
+    """
+
+    def __init__(
+        self, problem: Problem, numbering: Numbering, plane: MovingPlane | None, pattern: Pattern
+    ) -> None:
+        self._plane = plane
+        self._pattern = pattern
+        self._touches = tuple(Touch.of(problem, each, numbering) for each in problem.contacts)
+        _check_apart(problem, self._touches)
+
+    @contextmanager
+    def softened(self) -> Iterator[None]:
+        """Contacts softer by ``SOFTENING`` for a while: their way of settling is shorter."""
+        stiff = self._touches
+        self._touches = tuple(touch.softer(SOFTENING) for touch in stiff)
+        try:
+            yield
+        finally:
+            self._touches = stiff
+
+    def energy(self, state: State) -> float:
+        """Energy of all contacts, N mm."""
+        return float(
+            sum(face_energy(t.face, t.plane(state), state.displacement) for t in self._touches)
+        )
+
+    def depth(self, state: State) -> float:
+        """Depth (mm) over which a contact changes that is at work; infinite without one."""
+        active = (touch for touch in self._touches if touch.touches(state))
+        return min((touch.contact.penetration for touch in active), default=np.inf)
+
+    def add(
+        self, state: State, tangent: bool, residual: Reals, values: Reals
+    ) -> tuple[Reals, Pattern]:
+        """Add the contact forces to ``residual``; the tangent with contact, and its pattern.
+
+        ``values`` are in the pattern without contact, and empty unless ``tangent``.
+        """
+        active = [touch for touch in self._touches if touch.touches(state)]
+        pattern = self._pattern
+        if tangent and any(touch.contact.axis is None for touch in active):
+            pattern, places = self._wide
+            narrow, values = values, np.zeros(len(pattern.indices))
+            values[places] = narrow
+        for touch in active:
+            assemble_contact(
+                touch.face, touch.entries(pattern if tangent else None), touch.plane(state),
+                self._heights(state), state.plane[0], np.ascontiguousarray(state.displacement),
+                tangent, residual, values,
+            )  # fmt: skip
+        return values, pattern
+
+    def _heights(self, state: State) -> Reals:
+        """h of the nodes on the moving plane, NaN for all others, (n,), mm."""
+        if self._plane is None:
+            return np.full(len(state.displacement), np.nan)
+        return self._plane.heights(state)
+
+    @cached_property
+    def _wide(self) -> tuple[Pattern, Integers]:
+        """The pattern with contact at the moving plane, and where the other's entries are in it."""
+        cells = [touch.face.dofs for touch in self._touches if touch.contact.axis is None]
+        return widened(self._pattern, np.concatenate(cells))
+
+
+def lowest_gaps(problem: Problem, displacement: Reals, plane: Reals) -> tuple[float, ...]:
+    """Least signed distance from its plane of each of the problem's contacts, mm.
+
+    ``displacement`` (n, 3) in mm; ``plane`` (2,) tilt (rad) and shift (mm) of the moving plane.
+    Negative where something touches: by so much the penalty lets it through.
+    """
+    from solver.problem.supports import number_unknowns
+
+    state = State(displacement, np.zeros(0), np.asarray(plane, float))
+    numbering = number_unknowns(problem.mesh, problem.supports, problem.moving_plane)
+    touches = (Touch.of(problem, each, numbering) for each in problem.contacts)
+    return tuple(float(touch.gaps(state).min(initial=np.inf)) for touch in touches)
+
+
+def image_gaps(problem: Problem, displacement: Reals, plane: Reals) -> tuple[float | None, ...]:
+    """Narrowest air (mm) between each contact's surface and its mirror image; None: no facing one.
+
+    Arguments as for ``lowest_gaps``. Seen from flat facets; but where the surface touches its
+    image, by how far the two run into each other, negative.
+    """
+    state = State(displacement, np.zeros(0), np.asarray(plane, float))
+    lowest = lowest_gaps(problem, displacement, plane)
+    gaps = []
+    for contact, least in zip(problem.contacts, lowest, strict=True):
+        *normal, constant = _plane_of(problem, contact, state).equation
+        centres, normals = facet_normals(problem.mesh, displacement, contact.surface)
+        cosine = normals @ np.array(normal)
+        facing = (cosine < 0) & (1 - 2 * cosine**2 <= OPPOSING)
+        across = centres[facing] @ np.array(normal) + constant
+        gaps.append(2 * (least if least < 0 else float(across.min(initial=np.inf))))
+    return tuple(gap if np.isfinite(gap) else None for gap in gaps)
+
+
+def _areas(mesh: Mesh, triangles: Integers) -> Reals:
+    """Reference areas (k, q) of the quadrature points of triangles (k, 6), mm^2."""
+    rule = triangle_rule()
+    along = np.einsum("qad,kai->dkqi", rule.gradients, mesh.nodes[triangles])
+    areas: Reals = rule.weights * np.linalg.norm(np.cross(along[0], along[1]), axis=2)
+    return areas
+
+
+def _dofs(
+    problem: Problem, contact: Contact, triangles: Integers, numbering: Numbering
+) -> Integers:
+    """Unknowns of triangles (k, 20): the moving plane's where they matter, else -1."""
+    moving = problem.moving_plane
+    on_plane = () if moving is None else problem.mesh.surface_nodes(moving)
+    plane = np.broadcast_to(numbering.plane, (len(triangles), 2)).copy()
+    if contact.axis is not None:
+        plane[~np.isin(triangles, on_plane).any(axis=1)] = -1
+    return np.ascontiguousarray(np.hstack([numbering.of_triangles(triangles), plane]))
+
+
+def _plane_of(problem: Problem, contact: Contact, state: State) -> Plane:
+    """Where a contact's plane is now."""
+    if contact.axis is None:
+        return _moving_plane(_end(problem), state.plane)
+    middle = problem.mesh.nodes[:, contact.axis].mean()
+    side = 1.0 if middle >= contact.position else -1.0  # where the body is
+    equation = np.zeros(4)
+    equation[contact.axis], equation[3] = side, -side * contact.position
+    return Plane(equation, np.zeros(4), np.zeros(4), 0.0, 0.0)
+
+
+def _moving_plane(end: float, motion: Reals) -> Plane:
+    """The moving plane, at x = ``end`` at first, after ``motion`` (2,): tilt and shift."""
+    sine, cosine, reach = np.sin(motion[0]), np.cos(motion[0]), end + motion[1]
+    equation = np.array([-cosine, 0.0, sine, reach * cosine])
+    turned = np.array([sine, 0.0, cosine, -reach * sine])
+    return Plane(equation, turned, -equation, float(cosine), -float(sine))
+
+
+def _end(problem: Problem) -> float:
+    """x of the moving plane at first, mm."""
+    assert problem.moving_plane is not None
+    return float(problem.mesh.nodes[problem.mesh.surface_nodes(problem.moving_plane)[0], 0])
+
+
+def _check_apart(problem: Problem, touches: tuple[Touch, ...]) -> None:
+    """Raise ``ValueError`` if a surface lies beyond its plane from the start."""
+    still = State.zero(problem)
+    for touch in touches:
+        lowest = float(touch.gaps(still).min(initial=0.0))
+        if lowest < -INITIAL_CROSSING * problem.mesh.size:
+            raise ValueError(
+                f"contacts: the surface {touch.contact.surface!r} lies {-lowest:.3g} mm beyond its "
+                "plane before any load; it must be on one side."
+            )

@@ -1,0 +1,68 @@
+"""Far units: lengths or moduli so many powers of ten from mm and MPa that pivots look like zeros.
+
+A displacement's pivots are of the order of mu h, the coupling with a pressure of h^2, for a shear
+modulus mu and elements of size h. With unknowns scaled by (mu h)^(-1/2) and (mu / h^3)^(1/2) all of
+them are of order 1, whatever the units are. The factors are powers of two: they round nothing.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from solver.arrays import Reals
+from solver.linear.solvers import LinearSolver
+from solver.linear.sparsity import Pattern
+from solver.problem.problem import Problem
+from solver.problem.supports import Numbering
+
+LENGTHS, MODULI = (1e-2, 1e2), (1e-4, 1e4)
+"""Mean edges (mm) and shear moduli (MPa) that need no scaling."""
+
+
+def factors(problem: Problem, numbering: Numbering) -> Reals | None:
+    """Scale of each unknown (m,), or None where units are near enough to mm and MPa."""
+    edge, mu, size = problem.mesh.edge, problem.material.shear_modulus, problem.mesh.size
+    if LENGTHS[0] <= edge <= LENGTHS[1] and MODULI[0] <= mu <= MODULI[1]:
+        return None
+    scale = np.full(numbering.size, (mu * edge) ** -0.5)
+    scale[numbering.pressure] = (mu / edge**3) ** 0.5
+    if numbering.plane[0] >= 0:
+        scale[numbering.plane[0]] /= size  # a tilt moves what is a body's size away
+    return np.exp2(np.rint(np.log2(scale)))
+
+
+def scaled(solver: LinearSolver, scale: Reals | None) -> LinearSolver:
+    """``solver`` with its unknowns scaled, if there is a scale."""
+    return solver if scale is None else Scaled(solver, scale)
+
+
+class Scaled:
+    """A linear solver for D A D instead of A."""
+
+    def __init__(self, solver: LinearSolver, scale: Reals) -> None:
+        self._solver, self._scale, self._products = solver, scale, np.zeros(0)
+        self.name = solver.name
+
+    @property
+    def negative_pivots(self) -> int | None:
+        """Those of D A D are as many as those of A."""
+        return self._solver.negative_pivots
+
+    @property
+    def odd_negative(self) -> bool | None:
+        """As for A."""
+        return self._solver.odd_negative
+
+    def analyze(self, pattern: Pattern) -> None:
+        """Also where every entry's factor is."""
+        rows = np.repeat(self._scale, np.diff(pattern.indptr))
+        self._products = rows * self._scale[pattern.indices]
+        self._solver.analyze(pattern)
+
+    def factorize(self, values: Reals) -> None:
+        """Factorize D A D."""
+        self._solver.factorize(self._products * values)
+
+    def solve(self, right_hand_side: Reals) -> Reals:
+        """Solve A x = b by D A D y = D b, x = D y."""
+        return self._scale * self._solver.solve(self._scale * right_hand_side)

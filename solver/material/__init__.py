@@ -1,0 +1,1 @@
+"""Hyperelastic laws: their constants, homogeneous states and stability."""

@@ -1,0 +1,101 @@
+"""Quadratic tetrahedral meshes with named surfaces."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, DTypeLike, NDArray
+
+from solver.arrays import Integers, Reals
+from solver.mesh.elements import TETRAHEDRON_EDGES
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """Ten-node tetrahedra, straight or curved, and named six-node triangles on their faces.
+
+    - ``nodes``: (n, 3) reference coordinates, mm.
+    - ``tets``: (e, 10) node numbers in Gmsh's order: four vertices, then the mid-nodes of the
+      edges (0, 1) (1, 2) (0, 2) (0, 3) (2, 3) (1, 3).
+    - ``surfaces``: name -> (k, 6) node numbers of triangles in Gmsh's order (three vertices, then
+      the mid-nodes of (0, 1) (1, 2) (2, 0)); normals point out of the solid.
+
+    The arrays are read-only views of what was given. Raises ``ValueError`` when a shape is wrong
+    or a node number is out of range.
+    """
+
+    nodes: Reals
+    tets: Integers
+    surfaces: Mapping[str, Integers] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        nodes = _table("nodes", self.nodes, 3, np.float64)
+        if not np.isfinite(nodes).all():
+            raise ValueError("mesh: nodes must be finite numbers in mm, found NaN or infinity.")
+        surfaces = {
+            name: _table(f"surface {name!r}", triangles, 6, np.int32)
+            for name, triangles in self.surfaces.items()
+        }
+        tets = _table("tets", self.tets, 10, np.int32)
+        for name, table in {"tets": tets, **surfaces}.items():
+            _check_range(name, table, len(nodes))
+        object.__setattr__(self, "nodes", nodes)
+        object.__setattr__(self, "tets", tets)
+        object.__setattr__(self, "surfaces", MappingProxyType(surfaces))
+
+    @cached_property
+    def vertices(self) -> Integers:
+        """Sorted numbers of the nodes at corners of tetrahedra; they carry the pressure. (v,)"""
+        return np.unique(self.tets[:, :4])
+
+    @cached_property
+    def tet_vertices(self) -> Integers:
+        """The corners of each tetrahedron as positions in ``vertices``. (e, 4)"""
+        return np.searchsorted(self.vertices, self.tets[:, :4]).astype(np.int32)
+
+    @property
+    def size(self) -> float:
+        """Diagonal of the bounding box, mm."""
+        return float(np.linalg.norm(np.ptp(self.nodes, axis=0)))
+
+    @cached_property
+    def edge(self) -> float:
+        """Mean length of the tetrahedra's edges, mm; 0 without any."""
+        a, b = (
+            self.nodes[self.tets[:, list(ends)]] for ends in zip(*TETRAHEDRON_EDGES, strict=True)
+        )
+        return float(np.linalg.norm(a - b, axis=2).mean()) if len(self.tets) else 0.0
+
+    def triangles(self, *names: str) -> Integers:
+        """All six-node triangles of the named surfaces, (k, 6); ``ValueError`` if unknown."""
+        for name in names:
+            if name not in self.surfaces:
+                known = ", ".join(sorted(self.surfaces)) or "none"
+                raise ValueError(f"mesh: no surface is called {name!r}; known surfaces: {known}.")
+        parts = [self.surfaces[name] for name in names]
+        return np.concatenate([np.empty((0, 6), np.int32), *parts])
+
+    def surface_nodes(self, *names: str) -> Integers:
+        """Sorted unique node numbers of the named surfaces; ``ValueError`` if one is unknown."""
+        return np.unique(self.triangles(*names))
+
+
+def _table(name: str, values: ArrayLike, width: int, dtype: DTypeLike) -> NDArray[Any]:
+    array = np.ascontiguousarray(values, dtype=dtype).view()
+    if array.ndim != 2 or array.shape[1] != width:
+        raise ValueError(f"mesh: {name} must have the shape (n, {width}), got {array.shape}.")
+    array.flags.writeable = False
+    return array
+
+
+def _check_range(name: str, table: Integers, number_of_nodes: int) -> None:
+    if table.size and not 0 <= table.min() <= table.max() < number_of_nodes:
+        raise ValueError(
+            f"mesh: {name} names node {table.max() if table.min() >= 0 else table.min()}, "
+            f"but the nodes are numbered 0 to {number_of_nodes - 1}."
+        )

@@ -1,0 +1,61 @@
+"""Curved quadratic tetrahedra with a positive Jacobian everywhere.
+
+Moving mid-nodes onto a curved surface can fold an element over. Where it does, its mid-nodes are
+drawn back towards the straight edges, which are always valid, only as far as needed.
+"""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+
+from solver.arrays import Integers, Reals
+from solver.mesh.elements import TETRAHEDRON_EDGES, quadratic_gradients
+
+SMALLEST_RATIO = 0.1
+"""Least ratio of smallest to mean Jacobian determinant that counts as a good element."""
+
+SWEEPS = 12
+
+
+def jacobian_ratios(nodes: Reals, tets: Integers) -> Reals:
+    """Smallest Jacobian determinant of each tetrahedron over its mean, (e,); at most 1.
+
+    The determinant is a cubic polynomial; it is sampled on the twenty points that determine it
+    (vertices, thirds of edges, middles of faces) and at the middles of the edges.
+    """
+    determinants = _determinants(nodes[tets], quadratic_gradients(_lattice(), TETRAHEDRON_EDGES))
+    smallest: Reals = determinants.min(axis=1) / np.abs(determinants.mean(axis=1))
+    return smallest
+
+
+def relaxed(nodes: Reals, tets: Integers) -> Reals:
+    """``nodes`` (n, 3) with the mid-nodes of folded or nearly folded elements drawn back."""
+    middles = tets[:, 4:]
+    ends = np.stack([tets[:, list(edge)] for edge in TETRAHEDRON_EDGES], axis=1)
+    straight = nodes.copy()
+    straight[middles] = nodes[ends].mean(axis=2)
+    share = np.ones(len(nodes))
+    moved = nodes
+    for _ in range(SWEEPS):
+        bad = jacobian_ratios(moved, tets) < SMALLEST_RATIO
+        if not bad.any():
+            break
+        share[np.unique(middles[bad])] *= 0.5
+        moved = straight + share[:, None] * (nodes - straight)
+    return moved
+
+
+def _determinants(corners: Reals, gradients: Reals) -> Reals:
+    """Jacobian determinants (e, q) of elements (e, 10, 3) at points with gradients (q, 10, 3)."""
+    jacobians = np.einsum("eni,qnj->eqij", corners, gradients, optimize=True)
+    first, second, third = np.moveaxis(jacobians, -1, 0)
+    return np.einsum("eqi,eqi->eq", np.cross(first, second), third)
+
+
+def _lattice() -> Reals:
+    """Barycentric coordinates (26, 4): the cubic lattice and the middles of the edges."""
+    thirds = [p for p in itertools.product(range(4), repeat=4) if sum(p) == 3]
+    middles = [np.eye(4)[list(edge)].mean(axis=0) for edge in TETRAHEDRON_EDGES]
+    return np.concatenate([np.array(thirds) / 3, middles])

@@ -1,0 +1,189 @@
+"""Gmsh in a process of its own, which can be ended, and whose crash is not ours.
+
+One such process serves all meshes of a program, one after the other. It is started with
+``start`` where that is worth a hint, else with the first mesh; it ends with the program, however
+that ends, and it never sees a terminal's Ctrl-C: whoever asked for a mesh ends it.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import weakref
+from contextlib import suppress
+from functools import cache
+from io import FileIO
+from pathlib import Path
+from queue import Empty, SimpleQueue
+from typing import IO, cast
+
+from solver.meshing.messages import Message, receive, send
+
+DEFAULT_SECONDS = 120.0
+"""Time limit of one mesh, s. The largest that fits into 8 GiB takes half of that."""
+
+BETWEEN_LOOKS = 0.2
+"""s. So often a waiting program looks whether it was interrupted, where the system does not say."""
+
+GOODBYE = 2.0
+"""s. What the process gets to clear up before it is killed."""
+
+
+class MesherTimeout(Exception):
+    """The mesh was not done in time; the process is gone."""
+
+
+class MesherCrash(Exception):
+    """The process ended by itself; the message says how."""
+
+
+def start() -> None:
+    """Start the process now, so that it can load Gmsh while the caller does something else."""
+    _mesher(os.getpid()).start()
+
+
+def ask(job: Message, seconds: float) -> Message:
+    """The process's answer to ``job``; calls of several threads take turns.
+
+    Raises ``MesherTimeout`` after ``seconds`` and ``MesherCrash``; the next job gets a new process.
+    """
+    return _mesher(os.getpid()).ask(job, seconds)
+
+
+def process_id() -> int:
+    """Number of the process, which is started if need be."""
+    return _mesher(os.getpid()).start()
+
+
+@cache
+def _mesher(process: int) -> _Mesher:
+    """The one of this program; a forked copy of the program gets its own."""
+    return _Mesher()
+
+
+class _Mesher:
+    """Keeps one process at hand."""
+
+    def __init__(self) -> None:
+        self._turn = threading.Lock()
+        self._process: _Process | None = None
+
+    def start(self) -> int:
+        with self._turn:
+            return self._ready().number
+
+    def ask(self, job: Message, seconds: float) -> Message:
+        with self._turn:
+            process = self._ready()
+            try:
+                return process.ask(job, seconds)
+            except BaseException:  # an interrupt too: its answer would come to the next job
+                self._process = None
+                process.end()
+                raise
+
+    def _ready(self) -> _Process:
+        if self._process is None or not self._process.alive:
+            if self._process is not None:
+                self._process.end()
+            self._process = _Process()
+        return self._process
+
+
+class _Process:
+    """One process, its pipes and its folder."""
+
+    def __init__(self) -> None:
+        self._folder = Path(tempfile.mkdtemp(prefix="solver-mesher-"))
+        self._process = _launched(self._folder)
+        self._requests = cast(FileIO, self._process.stdin)
+        self._answers: SimpleQueue[Message | None] = SimpleQueue()
+        listener = threading.Thread(
+            target=_listen, args=(self._process.stdout, self._answers), daemon=True
+        )
+        listener.start()
+        self.end = weakref.finalize(self, _end, os.getpid(), self._process, self._folder, listener)
+
+    @property
+    def number(self) -> int:
+        return self._process.pid
+
+    @property
+    def alive(self) -> bool:
+        return self._process.poll() is None
+
+    def ask(self, job: Message, seconds: float) -> Message:
+        deadline = time.monotonic() + seconds
+        with suppress(OSError):  # it ended before it had read all; the queue's end says so too
+            send(self._requests, job)
+        answer = self._awaited(deadline)
+        if answer is None:
+            raise MesherCrash(self._last_words())
+        return answer
+
+    def _awaited(self, deadline: float) -> Message | None:
+        while (rest := deadline - time.monotonic()) > 0:
+            try:
+                return self._answers.get(timeout=min(rest, BETWEEN_LOOKS))
+            except Empty:
+                continue
+        raise MesherTimeout
+
+    def _last_words(self) -> str:
+        """How the process ended."""
+        try:
+            status = self._process.wait(GOODBYE)
+        except subprocess.TimeoutExpired:
+            return "it closed its output"
+        if status < 0:
+            return signal.Signals(-status).name
+        said = (self._folder / "stderr.txt").read_text("utf-8", "replace").strip().splitlines()
+        return f"exit status {status:#x}" + (f": {said[-1][:200]}" if said else "")
+
+
+def _launched(folder: Path) -> subprocess.Popen[bytes]:
+    """Out of the terminal's reach, and with modules from where ours come from."""
+    places = os.pathsep.join(os.path.abspath(place) for place in sys.path)
+    with (folder / "stderr.txt").open("wb") as said:
+        return subprocess.Popen(
+            # -P: nothing from the current folder, which may hold a file of any name
+            [sys.executable, "-P", "-m", "solver.meshing.worker", str(folder)],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=said,
+            bufsize=0,
+            env={**os.environ, "PYTHONPATH": places, "OPENBLAS_NUM_THREADS": "1"},
+            start_new_session=True,
+            creationflags=getattr(subprocess, "CREATE_NEW_PROCESS_GROUP", 0),
+        )
+
+
+def _listen(stream: IO[bytes], answers: SimpleQueue[Message | None]) -> None:
+    """Queue the process's answers, and None when there will be no more."""
+    while (answer := receive(cast(FileIO, stream))) is not None:
+        answers.put(answer)
+    answers.put(None)
+
+
+def _end(
+    owner: int, process: subprocess.Popen[bytes], folder: Path, listener: threading.Thread
+) -> None:
+    """End the process and clear up behind it; not in a forked copy of its owner."""
+    if os.getpid() != owner:
+        return
+    assert process.stdin is not None and process.stdout is not None
+    process.stdin.close()  # it leaves by itself, even in the midst of a mesh
+    try:
+        process.wait(GOODBYE)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        process.wait()
+    listener.join(GOODBYE)
+    process.stdout.close()
+    shutil.rmtree(folder, ignore_errors=True)

@@ -1,0 +1,174 @@
+"""A CAD solid with named faces to a mesh of curved quadratic tetrahedra, through Gmsh."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from solver.arrays import Reals
+from solver.mesh.elements import TETRAHEDRON_EDGES
+from solver.mesh.mesh import Mesh
+from solver.mesh.mid_nodes import SMALLEST_RATIO, jacobian_ratios, relaxed
+from solver.meshing.messages import Message
+from solver.meshing.process import DEFAULT_SECONDS, MesherCrash, MesherTimeout, ask
+
+FACES_OF_A_TETRAHEDRON = ((1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1))  # each seen from outside
+
+
+SIZE_OF_EDGE = 0.83
+"""Size to ask of Gmsh for a mean edge of 1: its tetrahedra come out that much larger."""
+
+
+class MeshingError(RuntimeError):
+    """Gmsh could not mesh the solid, or not well enough; the message says where."""
+
+
+@dataclass(frozen=True)
+class SizeField:
+    """Edge lengths ``sizes`` (n,) in mm wanted at the nodes of a ``mesh`` of the same body."""
+
+    mesh: Mesh
+    sizes: NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class MeshOptions:
+    """Sizes of a mesh.
+
+    - ``size``: largest edge, mm.
+    - ``elements_per_circle``: edges on a full circle of every curved face; 0 ignores curvature.
+    - ``smallest_size``: smallest edge asked for, mm.
+    - ``field``: edges wanted here and there, from ``refined_sizes``; the least size counts.
+    """
+
+    size: float = 2.0
+    elements_per_circle: float = 4.0
+    smallest_size: float = 0.1
+    field: SizeField | None = None
+
+    def __post_init__(self) -> None:
+        if not 0 < self.smallest_size <= self.size < np.inf:
+            raise ValueError(
+                f"mesh: size = {self.size:g} mm must be finite and at least smallest_size = "
+                f"{self.smallest_size:g} mm, which must be above 0."
+            )
+        if not 0 <= self.elements_per_circle <= 100:
+            raise ValueError(
+                f"mesh: elements_per_circle = {self.elements_per_circle:g} must lie between 0 "
+                "and 100."
+            )
+
+
+def mesh_solid(
+    brep: Path | bytes,
+    face_names: Sequence[str],
+    options: MeshOptions | None = None,
+    seconds: float = DEFAULT_SECONDS,
+) -> Mesh:
+    """Mesh the single solid in the BREP file ``brep``, or in the content of one.
+
+    ``face_names`` names its faces in the file's own order; faces that share a name make one
+    surface of the mesh. Gmsh runs in a process of its own, for at most ``seconds``.
+
+    Raises:
+        MeshingError: no mesh, none in time, or one whose worst element is all but flat.
+        ValueError: the number of names is not the number of faces, or ``seconds`` is not above 0.
+        OSError: ``brep`` cannot be read, or Gmsh cannot be loaded.
+    """
+    if not 0 < seconds < np.inf:
+        raise ValueError(f"mesh: seconds = {seconds:g} must be finite and above 0.")
+    content = brep if isinstance(brep, bytes) else brep.read_bytes()
+    arrays = _from_gmsh(content, len(face_names), options or MeshOptions(), seconds)
+    tets = arrays["tets"]
+    nodes = relaxed(arrays["nodes"], tets)
+    _check_quality(nodes, tets)
+    corners = np.split(arrays["corners"], np.cumsum(arrays["counts"])[:-1])
+    return Mesh(nodes, tets, _named_surfaces(tets, corners, face_names))
+
+
+def _from_gmsh(
+    brep: bytes, faces: int, options: MeshOptions, seconds: float
+) -> Mapping[str, NDArray[Any]]:
+    """What ``meshing_gmsh.meshed`` returns, from the other process."""
+    job = Message(
+        {"faces": faces, "settings": _settings(options)},
+        {"brep": np.frombuffer(brep, np.uint8), "field": _field_table(options.field)},
+    )
+    try:
+        answer = ask(job, seconds)
+    except MesherTimeout:
+        raise MeshingError(
+            f"Gmsh did not mesh the solid within {seconds:g} s and was stopped; allow it more "
+            "time, or change the design's thinnest walls and smallest fillets"
+        ) from None
+    except MesherCrash as crash:
+        raise MeshingError(f"Gmsh crashed on this solid ({crash}); try other numbers") from None
+    return _accepted(answer, faces)
+
+
+def _accepted(answer: Message, faces: int) -> Mapping[str, NDArray[Any]]:
+    """The arrays of an answer that is a mesh."""
+    if "failed" in answer.values:
+        raise OSError(answer.values["failed"])
+    if "faces" in answer.values:
+        raise ValueError(f"mesh: {faces} names for {answer.values['faces']} faces of the solid.")
+    if "refused" in answer.values:
+        raise MeshingError(answer.values["refused"])
+    return answer.arrays
+
+
+def _settings(options: MeshOptions) -> dict[str, float]:
+    """Gmsh's options by name."""
+    return {
+        "Mesh.MeshSizeMax": options.size,
+        "Mesh.MeshSizeMin": options.smallest_size,
+        "Mesh.MeshSizeFromCurvature": options.elements_per_circle,
+    }
+
+
+def _field_table(field: SizeField | None) -> Reals:
+    """Corners and wanted sizes of the field's tetrahedra (t, 16); see ``meshing_gmsh.meshed``."""
+    if field is None:
+        return np.empty((0, 16))
+    corners = field.mesh.tets[:, :4]
+    points = field.mesh.nodes[corners]
+    return np.hstack([*np.moveaxis(points, 2, 0), SIZE_OF_EDGE * field.sizes[corners]])
+
+
+def _named_surfaces(
+    tets: NDArray[np.int32], corners: Sequence[NDArray[np.int64]], names: Sequence[str]
+) -> dict[str, NDArray[np.int32]]:
+    """Six-node triangles by name, taken from the tetrahedra so that normals point outwards."""
+    outward = _faces_of(tets)
+    rows = {tuple(key): row for row, key in enumerate(np.sort(outward[:, :3], axis=1).tolist())}
+    picked: dict[str, list[int]] = {name: [] for name in names}
+    for name, triangles in zip(names, corners, strict=True):
+        picked[name] += [rows[tuple(key)] for key in np.sort(triangles, axis=1).tolist()]
+    return {name: outward[chosen] for name, chosen in picked.items()}
+
+
+def _faces_of(tets: NDArray[np.int32]) -> NDArray[np.int32]:
+    """Every tetrahedron's four faces as six-node triangles seen from outside it, (4e, 6)."""
+    middle = {frozenset(edge): 4 + place for place, edge in enumerate(TETRAHEDRON_EDGES)}
+    columns = [
+        [*face, *(middle[frozenset((face[k], face[(k + 1) % 3]))] for k in range(3))]
+        for face in FACES_OF_A_TETRAHEDRON
+    ]
+    return np.concatenate([tets[:, column] for column in columns])
+
+
+def _check_quality(nodes: NDArray[np.float64], tets: NDArray[np.int32]) -> None:
+    """Refuse folded elements and name the place of the worst."""
+    ratios = jacobian_ratios(nodes, tets)
+    worst = int(ratios.argmin())
+    if ratios[worst] < SMALLEST_RATIO:
+        x, y, z = nodes[tets[worst, :4]].mean(axis=0)
+        raise MeshingError(
+            f"the mesh has a folded element (Jacobian ratio {ratios[worst]:.2g}) near "
+            f"({x:.2f}, {y:.2f}, {z:.2f}) mm; try another mesh size"
+        )

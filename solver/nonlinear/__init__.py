@@ -1,0 +1,1 @@
+"""Equilibrium paths: Newton's method, load steps, arc length, volume control."""

@@ -1,0 +1,261 @@
+"""The equilibrium path by arc length: through limit points, where the load has to fall again.
+
+Each step goes along the unit tangent of the path and comes back to it at a right angle (Riks 1979,
+in Ramm's form with a linear constraint; lengths are measured in displacements alone). Where the
+slope of the load changes its sign there is a limit point; where the inertia of the tangent changes
+without that, a bifurcation.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from itertools import islice
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from solver.arrays import Reals
+from solver.assembly.assembly import Equilibrium
+from solver.assembly.state import State
+from solver.nonlinear.bordering import Station, corrected, station
+from solver.nonlinear.newton import FIRST_STEP, Listener, Newton, SolverOptions
+from solver.problem.problem import Problem
+from solver.results.solution import PathPoint
+
+LONGEST_STEP = 0.05
+"""Longest step of the nodes' root mean square, in units of the body's diagonal."""
+
+
+@dataclass(frozen=True)
+class Limit:
+    """A point where the load turns, or where the body's stability changes while it goes on."""
+
+    kind: Literal["maximum", "minimum", "bifurcation"]
+    point: PathPoint
+
+    def describe(self, pressure: float) -> str:
+        """In words, for a whole load with that pressure (MPa)."""
+        load = self.point.load
+        at = f"p = {load * pressure:.4g} MPa" if pressure else f"{100 * load:.4g} % of the load"
+        if self.kind == "bifurcation":
+            return f"stability is lost at {at}, where the body buckles"
+        return f"limit at {at}, beyond it there is no equilibrium nearby"
+
+
+@dataclass(frozen=True)
+class Trace:
+    """A path: its ``points`` with their ``states``, the ``limits`` met, and why it ends.
+
+    Limits are points of the path too.
+    """
+
+    points: tuple[PathPoint, ...]
+    states: tuple[State, ...]
+    limits: tuple[Limit, ...]
+    message: str
+
+
+def trace(
+    problem: Problem,
+    pressure: float = 0.0,
+    options: SolverOptions | None = None,
+    listener: Listener | None = None,
+    steps: int = 60,
+    longest_step: float = LONGEST_STEP,
+    until: Callable[[PathPoint], bool] | None = None,
+) -> Trace:
+    """Follow the equilibria of ``problem`` from zero load, stable or not.
+
+    ``pressure`` (MPa) and the problem's loads and prescribed motions are the whole load, 1; the
+    path ends where that is passed, where ``until`` says so of a point, after ``steps`` steps, or
+    where no step succeeds. The first step is ``options.first_step`` of the load, or a tenth; none
+    moves the nodes by more than ``longest_step`` body diagonals (root mean square). Raises
+    ``ValueError`` for a pressure that is not finite, and for no steps or steps of no length.
+    """
+    if not np.isfinite(pressure):
+        raise ValueError(f"pressure must be a finite number of MPa, got {pressure}.")
+    if not (0 < longest_step < np.inf and steps >= 1):
+        raise ValueError(
+            f"trace: longest_step = {longest_step} must be a number above 0 and steps = {steps} "
+            "at least 1."
+        )
+    newton = Newton(problem, float(pressure), options or SolverOptions(), listener)
+    walker = Walker.of(newton, longest_step)
+    points: list[PathPoint] = []
+    states: list[State] = []
+    limits: list[Limit] = []
+    message = "no further step succeeds."
+    first = walker.start(State.zero(problem), 0.0, newton.options.first_step or FIRST_STEP)
+    for number, (arc, limit) in enumerate(walker.along(first)):
+        points.append(limit.point if limit else walker.point(arc))
+        states.append(arc.station.state)
+        limits += [limit] if limit else []
+        if arc.station.load >= 1:
+            message = "the asked load is reached."
+            break
+        if until is not None and until(points[-1]):
+            message = "it ends where it was asked to."
+            break
+        if number >= steps:
+            message = f"it ends after {steps} steps."
+            break
+    return Trace(tuple(points), tuple(states), tuple(limits), message)
+
+
+def limit_ahead(newton: Newton, state: State, load: float, steps: int) -> Limit | None:
+    """The first limit beyond a state, if it is within so many steps."""
+    walker = Walker.of(newton, LONGEST_STEP)
+    arcs = walker.along(walker.start(state, load, newton.options.smallest_step))
+    return next((limit for _, limit in islice(arcs, steps + 1) if limit), None)
+
+
+@dataclass(frozen=True)
+class Arc:
+    """A station, the path's unit ``tangent`` (m,) and the load's ``slope`` (1/mm) along it.
+
+    ``length``: how far to step next, ``came``: how long the step to here was, mm.
+    """
+
+    station: Station
+    tangent: Reals
+    slope: float
+    length: float
+    came: float = 0.0
+
+
+@dataclass(frozen=True)
+class Walker:
+    """Steps along a path; lengths are root mean squares over the ``measured`` unknowns (m,)."""
+
+    newton: Newton
+    measured: NDArray[np.bool_]
+    longest: float
+
+    @staticmethod
+    def of(newton: Newton, longest_step: float) -> Walker:
+        """A walker on a problem, with its longest step in body diagonals."""
+        numbering = newton.assembly.numbering
+        measured = np.ones(numbering.size, bool)
+        measured[numbering.pressure] = False
+        return Walker(newton, measured, longest_step * newton.problem.mesh.size)
+
+    def start(self, state: State, load: float, first_step: float) -> Arc:
+        """A state as the start, with the load going up by ``first_step`` next."""
+        return self._arc(station(self.newton, state, load), None, first_step)
+
+    def along(self, arc: Arc) -> Iterator[tuple[Arc, Limit | None]]:
+        """The path from ``arc`` on, with the limits on it; ends where no step succeeds."""
+        yield arc, None
+        while not arc.station.failure:
+            follows = self._next(arc)
+            if follows.station.failure:
+                return
+            between = self._limit_between(arc, follows)
+            if between is not None:
+                yield between
+            yield follows, None
+            arc = follows
+
+    def point(self, arc: Arc) -> PathPoint:
+        """Describe a station."""
+        there = arc.station
+        return self.newton.point(there.state, there.load, there.iterations, there.stable)
+
+    def _next(self, arc: Arc) -> Arc:
+        """The next arc; its length grows where Newton is quick, and is cut where it fails."""
+        length = arc.length
+        for _ in range(MOST_CUTS):
+            follows = self._step(arc, length)
+            if not follows.station.failure:
+                break
+            self.newton.effort.refused_steps += 1
+            length *= self.newton.options.cut
+        return follows
+
+    def _step(self, arc: Arc, length: float) -> Arc:
+        """One step of a given length; it fails too where the path would turn sharply."""
+        newton, here = self.newton, arc.station
+        load = here.load + arc.slope * length
+        guess = newton.led(newton.advance(here.state, newton.expanded(arc.tangent), length), load)
+
+        def back_to_the_plane(_s: State, _e: Equilibrium, r: Reals, d: Reals) -> float:
+            return -self._product(arc.tangent, r) / self._product(arc.tangent, d)
+
+        found = corrected(newton, guess, load, back_to_the_plane)
+        growth = GROWTH if found.iterations <= FEW_ITERATIONS else 1.0
+        follows = replace(self._arc(found, arc.tangent, growth * length), came=length)
+        if not found.failure and self._product(follows.tangent, arc.tangent) < SHARPEST_TURN:
+            return Arc(Station(found.state, found.load, failure="a sharp turn"), *_NOWHERE)
+        return follows
+
+    def _arc(self, found: Station, before: Reals | None, length: float) -> Arc:
+        """A station with its tangent, forward as seen from the tangent ``before``.
+
+        Without one the load goes up, and ``length`` is its step.
+        """
+        if found.failure or found.direction is None:
+            return Arc(found, *_NOWHERE)
+        speed = float(np.sqrt(self._product(found.direction, found.direction)))
+        if before is None:
+            length *= speed
+        elif self._product(found.direction, before) < 0:
+            speed = -speed
+        return Arc(found, found.direction / speed, float(1 / speed), min(length, self.longest))
+
+    def _limit_between(self, a: Arc, b: Arc) -> tuple[Arc, Limit] | None:
+        """The limit between two neighbours."""
+        if a.slope * b.slope < 0:
+            turn = self._turn_between(a, b)
+            kind: Literal["maximum", "minimum"] = "maximum" if a.slope > 0 else "minimum"
+            return turn, Limit(kind, self.point(turn))
+        if a.station.unstable_modes != b.station.unstable_modes:
+            change = self._change_between(a, b)
+            return change, Limit("bifurcation", self.point(change))
+        return None
+
+    def _change_between(self, a: Arc, b: Arc) -> Arc:
+        """The first arc known to be stable in another number of ways than ``a``: by halving."""
+        low, high, found = 0.0, b.came, b
+        for _ in range(HALVINGS):
+            middle = self._step(a, (low + high) / 2)
+            if middle.station.unstable_modes == a.station.unstable_modes:
+                low = (low + high) / 2
+            elif not middle.station.failure:
+                high, found = (low + high) / 2, middle
+        return found
+
+    def _turn_between(self, a: Arc, b: Arc) -> Arc:
+        """Where the slope vanishes between two arcs: bracketed secants."""
+        (low, rising), (high, falling), best = (0.0, a.slope), (b.came, b.slope), b
+        for _ in range(MOST_SECANTS):
+            share = rising / (rising - falling)
+            length = low + min(max(share, 0.05), 0.95) * (high - low)
+            tried = self._step(a, length)
+            if tried.station.failure:
+                break
+            best = tried if abs(tried.slope) < abs(best.slope) else best
+            if abs(tried.slope) < FLAT * abs(a.slope):
+                break
+            if tried.slope * a.slope > 0:
+                low, rising = length, tried.slope
+            else:
+                high, falling = length, tried.slope
+        return best
+
+    def _product(self, a: Reals, b: Reals) -> float:
+        return float(a[self.measured] @ b[self.measured]) / np.count_nonzero(self.measured)
+
+
+MOST_CUTS = 8
+MOST_SECANTS = 8
+HALVINGS = 6
+FLAT = 1e-3
+"""A slope so many times smaller than before is that of a limit point."""
+FEW_ITERATIONS = 4
+GROWTH = 1.5
+SHARPEST_TURN = 0.7
+"""Least cosine between the tangents at both ends of a step."""
+
+_NOWHERE = (np.zeros(0), 0.0, 0.0)

@@ -1,0 +1,94 @@
+"""Newton's method with the load among the unknowns and one more equation that picks a point."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+
+from solver.arrays import Reals
+from solver.assembly.assembly import Equilibrium
+from solver.assembly.state import State
+from solver.linear.solvers import SingularMatrix
+from solver.nonlinear.newton import DIVERGED, Newton
+
+Row: TypeAlias = Callable[[State, Equilibrium, Reals, Reals], float]
+"""The linearised extra equation: (state, equilibrium there, r, d) -> change of the load.
+
+r (m,) is Newton's correction at the present load, d (m,) the derivative of the equilibrium with
+respect to the load; the whole correction is r + change * d.
+"""
+
+
+@dataclass(frozen=True)
+class Station:
+    """An equilibrium on a path, stable or not.
+
+    ``direction`` (m,): its derivative with respect to the load. ``force`` (m,): that of the
+    residual with respect to the applied pressure, mm^2. ``unstable_modes``: in so many ways it
+    gives way while the load is held, None where the linear solver cannot tell. ``failure``: why
+    this is no equilibrium.
+    """
+
+    state: State
+    load: float
+    iterations: int = 0
+    direction: Reals | None = None
+    force: Reals | None = None
+    unstable_modes: int | None = None
+    failure: str = ""
+
+    @property
+    def stable(self) -> bool | None:
+        """Whether the body stays there while the load is held."""
+        return None if self.unstable_modes is None else self.unstable_modes == 0
+
+
+def corrected(newton: Newton, guess: State, load: float, row: Row) -> Station:
+    """Equilibrium near ``guess`` and ``load`` that satisfies ``row``.
+
+    Block elimination: two right-hand sides for each factorization, which need not be that of a
+    stable state.
+    """
+    state, size = guess, newton.problem.mesh.size
+    for iteration in range(1, newton.options.maximum_iterations + 1):
+        equilibrium, failure = _linearised(newton, state, load)
+        if failure:
+            return Station(guess, load, iteration, failure=failure)
+        r = newton.matrix.solve(-equilibrium.residual)
+        d = newton.matrix.solve(-newton.rate(state, load, equilibrium))
+        change = float(row(state, equilibrium, r, d))
+        increment = newton.expanded(r + change * d)
+        correction = float(np.abs(newton.linear(state, increment)).max())
+        if not correction < DIVERGED * size:
+            return Station(guess, load, iteration, failure="the corrections grew without bound")
+        load += change
+        state = newton.led(newton.advance(state, increment), load)
+        newton.effort.iterations += 1
+        newton.notify("iteration", load, state, iteration, correction)
+        if correction <= newton.options.tolerance * size:
+            return station(newton, state, load, iteration)
+    return Station(guess, load, iteration, failure=f"no convergence in {iteration} iterations")
+
+
+def station(newton: Newton, state: State, load: float, iterations: int = 0) -> Station:
+    """What the tangent at an equilibrium says: where the path goes on, and whether it is stable."""
+    equilibrium, failure = _linearised(newton, state, load)
+    if failure:
+        return Station(state, load, iterations, failure=failure)
+    direction = newton.matrix.solve(-newton.rate(state, load, equilibrium))
+    return Station(state, load, iterations, direction, equilibrium.force, newton.unstable_modes)
+
+
+def _linearised(newton: Newton, state: State, load: float) -> tuple[Equilibrium, str]:
+    """Residual and tangent at a state, the tangent factorized; or why there is none."""
+    equilibrium = newton.evaluate(state, load)
+    if not equilibrium.admissible:
+        return equilibrium, "an element would turn inside out"
+    try:
+        newton.factorize(equilibrium)
+    except SingularMatrix as error:
+        return equilibrium, f"the tangent is singular ({error})"
+    return equilibrium, ""

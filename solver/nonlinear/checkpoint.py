@@ -1,0 +1,88 @@
+"""A walk over the load as it stood after a step: enough to go on with, to the last bit."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import astuple, dataclass, fields
+from pathlib import Path
+from typing import Any
+from zipfile import BadZipFile
+
+import numpy as np
+
+from solver.arrays import Reals
+from solver.assembly.state import State
+from solver.results.solution import PathPoint
+
+
+@dataclass(frozen=True)
+class Checkpoint:
+    """A load step that was reached, and what the next one depends on.
+
+    ``reached`` is in equilibrium at the fraction ``load`` of the asked load, the next step is
+    ``step`` long in the ``direction`` of the equilibrium's derivative with respect to the load
+    (zero at the end of the walk).
+    ``points``: the path so far; ``effort``: iterations, factorizations, load steps and refused
+    steps so far.
+    """
+
+    reached: State
+    load: float
+    step: float
+    direction: State
+    points: tuple[PathPoint, ...]
+    effort: tuple[int, int, int, int]
+
+    def save(self, path: Path) -> None:
+        """Write to ``path``, completely or not at all."""
+        temporary = path.with_name(f".{path.name}.{os.getpid()}")
+        try:
+            with temporary.open("wb") as file:
+                np.savez(file, **self._arrays())
+            temporary.replace(path)
+        finally:
+            temporary.unlink(missing_ok=True)
+
+    @staticmethod
+    def load_from(path: Path) -> Checkpoint:
+        """Read what ``save`` wrote; ``ValueError`` if that is not what the file holds."""
+        try:
+            with np.load(path, allow_pickle=False) as file:
+                return _checkpoint({name: file[name] for name in file.files})
+        except (KeyError, ValueError, TypeError, EOFError, BadZipFile) as error:
+            raise ValueError(f"checkpoint: {path.name} does not hold one ({error}).") from error
+
+    def _arrays(self) -> dict[str, Any]:
+        points = np.array([[np.nan if v is None else v for v in astuple(p)] for p in self.points])
+        states = {
+            f"{name}_{field.name}": getattr(getattr(self, name), field.name)
+            for name in STATES
+            for field in fields(State)
+        }
+        numbers = np.array([self.load, self.step])
+        return {"numbers": numbers, "points": points, "effort": np.array(self.effort), **states}
+
+
+STATES = ("reached", "direction")
+
+
+def _checkpoint(arrays: dict[str, Any]) -> Checkpoint:
+    load, step = (float(number) for number in arrays["numbers"])
+    reached, direction = (
+        State(*(arrays[f"{name}_{field.name}"] for field in fields(State))) for name in STATES
+    )
+    iterations, factorizations, steps, refused = (int(count) for count in arrays["effort"])
+    return Checkpoint(
+        reached=reached,
+        load=load,
+        step=step,
+        direction=direction,
+        points=tuple(_point(row) for row in arrays["points"]),
+        effort=(iterations, factorizations, steps, refused),
+    )
+
+
+def _point(row: Reals) -> PathPoint:
+    pressure, rotation, iterations, stress, volume, load, stable = (float(value) for value in row)
+    known = None if np.isnan(stable) else bool(stable)
+    return PathPoint(pressure, rotation, int(iterations), stress, volume, load, known)

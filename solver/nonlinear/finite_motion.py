@@ -1,0 +1,128 @@
+"""Finite motions of slender bodies: rotate what a linear increment would stretch.
+
+A Newton increment is linear in the nodes: applied as it stands to a body that should turn by a
+finite angle, it stretches it. Along a known axis the increment can be read as a motion: at
+stations along the axis, fit a translation and an in-plane rotation to the increment of the nodes
+around; lay the segments between stations end to end from the root with finite rotations; give
+each node the finite motion of its stations, and what remains of its increment, rotated. To first
+order this is the increment itself.
+
+All rotations are about y, positive from z to x: a positive one turns +x towards -z.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from solver.arrays import Reals
+from solver.mesh.mesh import Mesh
+from solver.problem.problem import SlenderAxis
+
+Motion = Callable[[Reals, Reals], Reals]
+"""(displacement, increment) -> displacement after the increment, all (n, 3)."""
+
+
+def motion_along(mesh: Mesh, axis: SlenderAxis | None) -> Motion:
+    """How increments are applied: by finite rotations along an axis, by addition without one."""
+    return np.add if axis is None else SlenderMotion.along(mesh, axis)
+
+
+@dataclass(frozen=True)
+class SlenderMotion:
+    """Increments of a body with stations along x, applied as finite in-plane motions.
+
+    ``nodes`` (n, 3); ``weights`` (n, s): how much of each station's motion a node takes,
+    linear between neighbouring stations.
+    """
+
+    nodes: Reals
+    weights: Reals
+
+    @staticmethod
+    def along(mesh: Mesh, axis: SlenderAxis) -> SlenderMotion:
+        """Interpolate linearly between the stations of ``axis``, constantly beyond them."""
+        hats = np.eye(len(axis.stations))
+        x = mesh.nodes[:, 0]
+        weights = np.stack([np.interp(x, axis.stations, hat) for hat in hats], axis=1)
+        return SlenderMotion(mesh.nodes, weights)
+
+    def __call__(self, displacement: Reals, increment: Reals) -> Reals:
+        """Displacement (n, 3) after the finite motion that starts off as ``increment`` (n, 3)."""
+        plane = (self.nodes + displacement)[:, [0, 2]]
+        step = increment[:, [0, 2]]
+        centres, shifts, angles = self._fit(plane, step)
+        w, angle = self.weights, self.weights @ angles
+        linear = w @ (shifts - angles[:, None] * _quarter_turn(centres))
+        linear += angle[:, None] * _quarter_turn(plane)
+        finite = w @ (_lay_out(centres, shifts, angles) - _turn(centres, angles))
+        finite += (w @ np.cos(angles))[:, None] * plane
+        finite += (w @ np.sin(angles))[:, None] * _quarter_turn(plane)
+        result = displacement + increment
+        result[:, [0, 2]] = finite + _turn(step - linear, angle) - self.nodes[:, [0, 2]]
+        return result
+
+    def _fit(self, plane: Reals, step: Reals) -> tuple[Reals, Reals, Reals]:
+        """Centres (s, 2), their shifts (s, 2) and rotations (s,) of the least-squares motion.
+
+        The first station is where the body is held: it stays.
+        """
+        w = self.weights
+        total = w.sum(axis=0)[:, None]
+        centres, shifts = w.T @ plane / total, w.T @ step / total
+        lever = _quarter_turn(plane)
+        moment = w.T @ (lever * step).sum(1) - total[:, 0] * (_quarter_turn(centres) * shifts).sum(
+            1
+        )
+        inertia = w.T @ (plane**2).sum(1) - total[:, 0] * (centres**2).sum(1)
+        angles = moment / inertia
+        shifts[0], angles[0] = 0.0, 0.0
+        return centres, shifts, angles
+
+
+def _lay_out(centres: Reals, shifts: Reals, angles: Reals) -> Reals:
+    """New station centres (s, 2): segments stretched linearly, then turned and laid end to end."""
+    segments = np.diff(centres, axis=0)
+    mean = (angles[1:] + angles[:-1]) / 2
+    stretches = np.diff(shifts, axis=0) - mean[:, None] * _quarter_turn(segments)
+    turned = _turn(segments + stretches, mean)
+    return np.cumsum(np.concatenate([centres[:1] + shifts[:1], turned]), axis=0)
+
+
+def _quarter_turn(vectors: Reals) -> Reals:
+    """(x, z) -> (z, -x): the velocity of a unit rotation about y."""
+    return np.stack([vectors[:, 1], -vectors[:, 0]], axis=1)
+
+
+def _turn(vectors: Reals, angles: Reals) -> Reals:
+    """Vectors (k, 2) in (x, z) turned by angles (k,) about y."""
+    return np.cos(angles)[:, None] * vectors + np.sin(angles)[:, None] * _quarter_turn(vectors)
+
+
+def rotation(mesh: Mesh, displacement: Reals, surface: str = "tip") -> float:
+    """Rotation of a surface about y, degrees, positive towards -z, past 180 and 360 degrees.
+
+    The best-fit (Procrustes) in-plane rotation of the surface's nodes. Its whole turns are
+    counted along the body: slices of nodes from the smallest x to the largest, where the surface
+    is, turn little against each other. So the result is a function of the state alone. NaN when
+    the mesh has no such surface.
+    """
+    if surface not in mesh.surfaces:
+        return float("nan")
+    slices = np.array_split(np.argsort(mesh.nodes[:, 0], kind="stable"), SLICES)
+    parts = [part for part in slices if len(part) > 3] + [mesh.surface_nodes(surface)]
+    angles = [_best_fit_rotation(mesh.nodes[part], displacement[part]) for part in parts]
+    return float(np.degrees(np.unwrap(angles)[-1]))
+
+
+SLICES = 32
+
+
+def _best_fit_rotation(nodes: Reals, displacement: Reals) -> float:
+    """In-plane rotation about y, radians in (-pi, pi], of nodes (k, 3) by displacements (k, 3)."""
+    before = (nodes - nodes.mean(axis=0))[:, [0, 2]]
+    moved = nodes + displacement
+    after = (moved - moved.mean(axis=0))[:, [0, 2]]
+    return float(np.arctan2((_quarter_turn(before) * after).sum(), (before * after).sum()))

@@ -1,0 +1,1 @@
+"""What is to be solved: a mesh, its material, supports and loads."""

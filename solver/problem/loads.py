@@ -1,0 +1,137 @@
+"""Dead loads: forces that keep size and direction while the body deforms."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+
+from solver.arrays import Integers, Reals
+from solver.mesh.elements import Rule, tetrahedron_rule, triangle_rule
+from solver.mesh.mesh import Mesh
+
+Field: TypeAlias = tuple[float, float, float] | Callable[[Reals], Reals]
+"""A vector, or a function of reference positions (k, 3) in mm that gives vectors (k, 3)."""
+
+
+@dataclass(frozen=True)
+class Traction:
+    """A force on a surface: ``stress`` in MPa, N per mm^2 of the undeformed surface."""
+
+    surface: str
+    stress: Field
+
+
+@dataclass(frozen=True)
+class BodyForce:
+    """A force in the whole body: ``density`` in N per mm^3 of the undeformed body."""
+
+    density: Field
+
+
+@dataclass(frozen=True)
+class PointForce:
+    """A ``force`` (N) on the node at ``position`` (mm, undeformed)."""
+
+    position: tuple[float, float, float]
+    force: tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Couple:
+    """A ``moment`` (N mm) about y on the problem's moving plane; it turns with the plane.
+
+    Positive ones turn the plane's normal from +x towards -z. It is what the rest of a uniform
+    chain, or of a long tube, exerts in pure bending.
+    """
+
+    moment: float
+
+
+Load: TypeAlias = Traction | BodyForce | PointForce | Couple
+
+
+def nodal_forces(mesh: Mesh, loads: Sequence[Load]) -> Reals:
+    """Forces (n, 3) in N that do the work of all ``loads`` but the couples.
+
+    Raises ``ValueError`` for an unknown surface, a point force on no node, or a value that is not
+    a finite vector.
+    """
+    forces = np.zeros(mesh.nodes.shape)
+    for load in loads:
+        if not isinstance(load, Couple):
+            forces += _forces(mesh, load)
+    return forces
+
+
+def check_loads(loads: Sequence[Load], moving_plane: str | None) -> None:
+    """Raise ``ValueError`` unless couples, and only they, go with a moving plane."""
+    couples = [isinstance(load, Couple) for load in loads]
+    if moving_plane is None and any(couples):
+        raise ValueError("loads: a couple needs a moving plane to act on.")
+    if moving_plane is not None and not all(couples):
+        raise ValueError("loads: a cell with a moving plane takes pressure only, besides couples.")
+
+
+def loaded_surfaces(loads: Sequence[Load]) -> tuple[str, ...]:
+    """Names of the surfaces with tractions."""
+    return tuple(load.surface for load in loads if isinstance(load, Traction))
+
+
+def couple(loads: Sequence[Load]) -> float:
+    """Sum of the couples on the moving plane, N mm; ``ValueError`` if it is not finite."""
+    moment = math.fsum(load.moment for load in loads if isinstance(load, Couple))
+    if not math.isfinite(moment):
+        raise ValueError(f"load: a couple's moment must be a finite number of N mm, got {moment}.")
+    return moment
+
+
+def _forces(mesh: Mesh, load: Traction | BodyForce | PointForce) -> Reals:
+    if isinstance(load, PointForce):
+        return _on_node(mesh, load)
+    if isinstance(load, Traction):
+        cells, rule = mesh.triangles(load.surface), triangle_rule()
+        tangents = np.einsum("qad,kai->dkqi", rule.gradients, mesh.nodes[cells])
+        sizes = np.linalg.norm(np.cross(tangents[0], tangents[1]), axis=-1)
+        return _integrated(mesh, cells, rule, sizes, load.stress)
+    cells, rule = mesh.tets, tetrahedron_rule()
+    sizes = np.linalg.det(np.einsum("qad,kai->kqdi", rule.gradients, mesh.nodes[cells]))
+    return _integrated(mesh, cells, rule, sizes, load.density)
+
+
+def _integrated(mesh: Mesh, cells: Integers, rule: Rule, sizes: Reals, field: Field) -> Reals:
+    """Integral of N_a times ``field`` over cells (k, m) of which points (k, q) have ``sizes``."""
+    places = np.einsum("qa,kai->kqi", rule.quadratic, mesh.nodes[cells])
+    values = _values(field, places.reshape(-1, 3)).reshape(places.shape)
+    parts = np.einsum("q,kq,qa,kqi->kai", rule.weights, sizes, rule.quadratic, values)
+    forces = np.zeros(mesh.nodes.shape)
+    np.add.at(forces, cells, parts)
+    return forces
+
+
+def _on_node(mesh: Mesh, load: PointForce) -> Reals:
+    nodes = np.unique(mesh.tets)
+    away = mesh.nodes[nodes] - _values(load.position, np.zeros((1, 3)))
+    distances = np.linalg.norm(away, axis=1)
+    nearest = int(distances.argmin())
+    if distances[nearest] > 1e-6 * mesh.size:
+        raise ValueError(
+            f"point force: no node lies at {load.position} mm; the nearest is "
+            f"{distances[nearest]:.3g} mm away."
+        )
+    forces = np.zeros(mesh.nodes.shape)
+    forces[nodes[nearest]] = _values(load.force, np.zeros((1, 3)))[0]
+    return forces
+
+
+def _values(field: Field, positions: Reals) -> Reals:
+    """Vectors (k, 3) of a field at positions (k, 3)."""
+    given = np.asarray(field(positions) if callable(field) else field, float)
+    if given.shape not in ((3,), positions.shape):
+        raise ValueError(f"load: needs vectors of the shape {positions.shape}, got {given.shape}.")
+    if not np.isfinite(given).all():
+        raise ValueError("load: every component must be a finite number.")
+    return np.broadcast_to(given, positions.shape)

@@ -1,0 +1,1 @@
+"""What a solution says: stress, strain, reactions, files for ParaView."""

@@ -1,0 +1,86 @@
+"""Where the stress of an ideal body has no value: sharp re-entrant edges and rims of clamps.
+
+The elastic solution is singular there: the finer the mesh, the higher the stress, without end.
+A real part has no such edge: a printed one is round by about half a line's width. So stress nearer
+than ``Problem.sharp_edge_radius`` is not looked at. Edges under pressure are never left out: there
+a missing fillet is the designer's to see.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from solver.arrays import Integers, Reals
+from solver.mesh.mesh import Mesh
+from solver.problem.problem import Problem
+
+SMALLEST_TURN = 40.0
+"""Degrees between the normals of two faces that meet in a sharp edge."""
+
+SAMPLES = np.linspace(-1.0, 1.0, 9)
+"""Where the quadratic edges are sampled: dense enough for radii above an eighth of an edge."""
+
+
+def trusted_nodes(problem: Problem) -> NDArray[np.bool_]:
+    """Which nodes keep the problem's ``sharp_edge_radius`` from all sharp edges, (n,)."""
+    from scipy.spatial import cKDTree
+
+    mesh = problem.mesh
+    edges = np.concatenate([_reentrant_edges(mesh, _unloaded(problem)), _rims(problem)])
+    if problem.sharp_edge_radius == 0 or len(edges) == 0:
+        return np.ones(len(mesh.nodes), bool)
+    distance, _ = cKDTree(_along(mesh.nodes[edges])).query(mesh.nodes)
+    return distance > problem.sharp_edge_radius
+
+
+def _unloaded(problem: Problem) -> Integers:
+    """Triangles (k, 6) that are neither pressurised nor cuts through the body."""
+    cuts = {*problem.supports.symmetry, problem.moving_plane, *problem.pressurised}
+    return problem.mesh.triangles(*(name for name in problem.mesh.surfaces if name not in cuts))
+
+
+def _rims(problem: Problem) -> Integers:
+    """Edges (k, 3) around the clamped surfaces."""
+    edges, _ = _edges(problem.mesh.triangles(*problem.supports.clamped))
+    _, first, count = np.unique(edges[:, :2], axis=0, return_index=True, return_counts=True)
+    return edges[first[count == 1]]
+
+
+def _reentrant_edges(mesh: Mesh, triangles: Integers) -> Integers:
+    """Edges (k, 3) at which two of the triangles meet with more than 180 degrees of solid."""
+    edges, owner = _edges(triangles)
+    order = np.lexsort((edges[:, 1], edges[:, 0]))
+    same = (edges[order[1:], :2] == edges[order[:-1], :2]).all(axis=1)
+    one, other = order[:-1][same], order[1:][same]
+    normals, centres = _normals(mesh, triangles), mesh.nodes[triangles[:, :3]].mean(axis=1)
+    middle = mesh.nodes[edges[one, 2]]
+    first, second = normals[owner[one]], normals[owner[other]]
+    sharp = np.einsum("ki,ki->k", first, second) < np.cos(np.radians(SMALLEST_TURN))
+    rising = np.einsum("ki,ki->k", centres[owner[other]] - middle, first) > 0
+    return edges[one[sharp & rising]]
+
+
+def _edges(triangles: Integers) -> tuple[Integers, Integers]:
+    """All edges (3 k, 3) of triangles (k, 6): ends in ascending order, mid-node; and owners."""
+    edges = np.concatenate(
+        [triangles[:, [a, b, c]] for a, b, c in ((0, 1, 3), (1, 2, 4), (2, 0, 5))]
+    )
+    edges[:, :2] = np.sort(edges[:, :2], axis=1)
+    return edges, np.tile(np.arange(len(triangles), dtype=np.int32), 3)
+
+
+def _normals(mesh: Mesh, triangles: Integers) -> Reals:
+    """Unit normals (k, 3) of the triangles' planes."""
+    a, b, c = (mesh.nodes[triangles[:, corner]] for corner in range(3))
+    normals = np.cross(b - a, c - a)
+    unit: Reals = normals / np.linalg.norm(normals, axis=1, keepdims=True)
+    return unit
+
+
+def _along(edges: Reals) -> Reals:
+    """Points on quadratic edges (k, 3 nodes, 3)."""
+    t = SAMPLES[:, None]
+    shapes = np.hstack([t * (t - 1) / 2, t * (t + 1) / 2, 1 - t**2])
+    points: Reals = np.einsum("sa,kai->ksi", shapes, edges).reshape(-1, 3)
+    return points

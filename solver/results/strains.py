@@ -1,0 +1,44 @@
+"""How far the material of a body was strained: principal stretches at the quadrature points."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from solver.arrays import Reals
+from solver.mesh.elements import tetrahedron_rule
+from solver.mesh.mesh import Mesh
+from solver.problem.problem import Problem
+from solver.results.sharp_edges import trusted_nodes
+from solver.results.solution import Solution
+
+
+def principal_logs(mesh: Mesh, displacement: Reals) -> Reals:
+    """ln of the principal stretches at the quadrature points, ascending: (e, q, 3).
+
+    ``displacement`` (n, 3) in mm. From the eigenvalues of C - 1, so small strains keep their
+    digits.
+    """
+    gradients = tetrahedron_rule().gradients
+    jacobian = np.einsum("qai,eaj->eqij", gradients, mesh.nodes[mesh.tets])
+    change = np.einsum("qai,eaj->eqij", gradients, displacement[mesh.tets])
+    h = np.linalg.solve(jacobian, change)  # transposed: h[j, i] = du_i / dX_j
+    strain = h + h.swapaxes(-1, -2) + h @ h.swapaxes(-1, -2)
+    logs: Reals = 0.5 * np.log1p(np.linalg.eigvalsh(strain))
+    return logs
+
+
+def reached_logs(solution: Solution) -> Reals:
+    """``principal_logs`` of a solution as rows (k, 3), without elements at sharp edges.
+
+    Those are left out by the rule of the highest stress (``trusted_nodes``): there the strain
+    of an ideal body has no bound. All count if none is left.
+    """
+    logs = principal_logs(solution.problem.mesh, solution.displacement)
+    trusted = _trusted(solution.problem)
+    rows: Reals = (logs[trusted] if trusted.any() else logs).reshape(-1, 3)
+    return rows
+
+
+def _trusted(problem: Problem) -> np.ndarray:
+    """Which elements have no node next to a sharp edge, (e,)."""
+    return np.asarray(trusted_nodes(problem)[problem.mesh.tets].all(axis=1))

@@ -1,0 +1,140 @@
+"""Cauchy stress at the nodes, recovered from the quadrature points."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from solver.arrays import Integers, Reals
+from solver.assembly.assembly import solid
+from solver.assembly.state import State
+from solver.kernels import kernels
+from solver.mesh.elements import TETRAHEDRON_EDGES, tetrahedron_rule
+from solver.problem.problem import Problem
+from solver.results.sharp_edges import trusted_nodes
+
+if TYPE_CHECKING:
+    from solver.results.solution import Solution
+
+
+@dataclass(frozen=True)
+class Peak:
+    """The largest nodal value: ``value`` (MPa), ``node`` number, reference ``position`` (mm).
+
+    ``scatter`` (MPa) is how much the elements around the node disagree: the root mean square of
+    the von Mises stress of their differences from the average. It vanishes under refinement, and
+    is 0 at a node of a single element.
+    """
+
+    value: float
+    node: int
+    position: tuple[float, float, float]
+    scatter: float
+
+
+def nodal_von_mises(solution: Solution) -> Reals:
+    """Von Mises Cauchy stress at the nodes, MPa. (n,)"""
+    return von_mises(deviatoric_at_nodes(solution.problem, solution.state.displacement))
+
+
+def nodal_cauchy(solution: Solution) -> Reals:
+    """Cauchy stress at the nodes, MPa: (n, 6) in the order xx, yy, zz, xy, yz, zx."""
+    stress = deviatoric_at_nodes(solution.problem, solution.state.displacement)
+    stress[:, :3] -= nodal_pressure(solution.problem, solution.state)[:, None]
+    return stress
+
+
+def peak_von_mises(solution: Solution) -> Peak:
+    """The largest nodal von Mises stress and where it is in the undeformed body.
+
+    Nodes too near to a sharp edge (``solver.results.sharp_edges``) do not count.
+    """
+    mesh = solution.problem.mesh
+    stress = element_stress(solution)
+    at_nodes = _average(mesh.tets, stress.raw, stress.volumes, len(mesh.nodes))
+    values = np.where(trusted_nodes(solution.problem), von_mises(at_nodes), 0.0)
+    node = int(values.argmax())
+    differences = von_mises(stress.jumps[mesh.tets == node])
+    scatter = float(np.sqrt((differences**2).mean()))
+    x, y, z = (float(c) for c in mesh.nodes[node])
+    return Peak(float(values[node]), node, (x, y, z), scatter)
+
+
+@dataclass(frozen=True)
+class ElementStress:
+    """Deviatoric Cauchy stress at the ten nodes of each element, MPa.
+
+    ``raw`` (e, 10, 6) as the element has it, ``smoothed`` (e, 10, 6) as the nodes' averages have
+    it; ``volumes`` (e,) of the elements, mm^3.
+    """
+
+    raw: Reals
+    smoothed: Reals
+    volumes: Reals
+
+    @property
+    def jumps(self) -> Reals:
+        """How far each element is from the average, (e, 10, 6)."""
+        return self.raw - self.smoothed
+
+
+def element_stress(solution: Solution) -> ElementStress:
+    """Deviatoric stress in the elements of a solution, and smoothed over them."""
+    mesh = solution.problem.mesh
+    raw, volumes = _in_elements(solution.problem, solution.displacement)
+    smoothed = _average(mesh.tets, raw, volumes, len(mesh.nodes))[mesh.tets]
+    return ElementStress(raw, smoothed, volumes)
+
+
+def von_mises(stress: Reals) -> Reals:
+    """sqrt(3/2 s:s) of stresses (..., 6) in the order xx, yy, zz, xy, yz, zx."""
+    deviator = stress[..., :3] - stress[..., :3].mean(axis=-1, keepdims=True)
+    return np.sqrt(1.5 * (deviator**2).sum(-1) + 3 * (stress[..., 3:] ** 2).sum(-1))
+
+
+def nodal_pressure(problem: Problem, state: State) -> Reals:
+    """Hydrostatic pressure at all nodes (n,), MPa; linear along element edges."""
+    mesh = problem.mesh
+    values = np.zeros(len(mesh.nodes))
+    values[mesh.vertices] = state.hydrostatic_pressure
+    for middle, (a, b) in enumerate(TETRAHEDRON_EDGES, start=4):
+        ends = values[mesh.tets[:, a]] + values[mesh.tets[:, b]]
+        values[mesh.tets[:, middle]] = ends / 2
+    return values
+
+
+def deviatoric_at_nodes(problem: Problem, displacement: Reals) -> Reals:
+    """Deviatoric Cauchy stress at the nodes, MPa: (n, 6).
+
+    In each element the linear field through the four quadrature points, extrapolated to its ten
+    nodes; at each node the average over its elements, weighted by their volumes.
+    """
+    in_elements, volumes = _in_elements(problem, displacement)
+    return _average(problem.mesh.tets, in_elements, volumes, len(problem.mesh.nodes))
+
+
+def _in_elements(problem: Problem, displacement: Reals) -> tuple[Reals, Reals]:
+    """Deviatoric stress at the ten nodes of each element (e, 10, 6), and element volumes (e,)."""
+    rule = tetrahedron_rule()
+    stress = np.empty((len(problem.mesh.tets), len(rule.weights), 6))
+    volumes = np.empty(stress.shape[:2])
+    kernels.deviatoric_stress(solid(problem), np.ascontiguousarray(displacement), stress, volumes)
+    at_corners = np.einsum("vq,eqc->evc", np.linalg.inv(rule.linear), stress)
+    middles = [(at_corners[:, a] + at_corners[:, b]) / 2 for a, b in TETRAHEDRON_EDGES]
+    at_nodes = np.concatenate([at_corners, np.stack(middles, axis=1)], axis=1)
+    return at_nodes, volumes.sum(axis=1)
+
+
+def _average(
+    tets: Integers,
+    values: Reals,
+    volumes: Reals,
+    number_of_nodes: int,
+) -> Reals:
+    """Averages (n, 6) of element values (e, 10, 6) weighted by element volumes (e,)."""
+    nodes, weights = tets.ravel(), np.repeat(volumes, tets.shape[1])
+    total = np.bincount(nodes, weights, number_of_nodes)
+    sums = [np.bincount(nodes, weights * values[..., c].ravel(), number_of_nodes) for c in range(6)]
+    return np.stack(sums, axis=1) / np.where(total > 0, total, 1.0)[:, None]

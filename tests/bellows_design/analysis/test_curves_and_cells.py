@@ -1,0 +1,159 @@
+"""Evaluation with the unit cell, with the whole actuator, and at several pressures."""
+
+from __future__ import annotations
+
+import json
+from itertools import pairwise
+
+import pytest
+
+from bellows_design import load_design, with_overrides
+from bellows_design.analysis.evaluate import evaluate
+from bellows_design.analysis.evaluation import Evaluation, Reading
+from bellows_design.analysis.models import FULL, HALF, UNIT_CELL
+from bellows_design.design.design import Design
+
+PRESSURES = (0.05, 0.02)
+CHEAP = (
+    "bubble_width=14", "bubble_height=12", "tendon_width=8", "number_of_bubbles=3", "length=26",
+    "load.pressure=0.05",
+)  # fmt: skip
+
+
+def cheap(*settings: str) -> Design:
+    """Prototype 1 with three low bubbles, under half of the pressure."""
+    return with_overrides(load_design("prototype_1"), [*CHEAP, *settings])
+
+
+@pytest.fixture(scope="module")
+def cell() -> Evaluation:
+    return evaluate(cheap(), pressures=PRESSURES)
+
+
+@pytest.fixture(scope="module")
+def half() -> Evaluation:
+    return evaluate(cheap(), "half", pressures=PRESSURES)
+
+
+def own_reading(evaluation: Evaluation) -> Reading:
+    return Reading(
+        evaluation.pressure_mpa,
+        evaluation.bending_angle_deg,
+        evaluation.max_von_mises_mpa,
+        evaluation.cavity_volume_mm3,
+    )
+
+
+def test_three_bubbles_are_answered_for_by_one_and_by_their_ends(cell: Evaluation) -> None:
+    assert cell.model is UNIT_CELL and cell.converged
+    assert len(cell.solutions) == UNIT_CELL.levels
+    assert cell.ends is not None and cell.ends.converged
+    for coarse, fine in pairwise(cell.solutions):
+        assert len(fine.problem.mesh.tets) > 1.3 * len(coarse.problem.mesh.tets)
+    assert all(solution.refused_steps == 0 for solution in cell.solutions)
+
+
+def test_three_bubbles_bend_as_three_cells_but_for_the_ends(cell: Evaluation) -> None:
+    alike = 3 * 2 * cell.finest.rotation
+    assert cell.bending_angle_deg == pytest.approx(alike, rel=0.25)
+    assert cell.bending_angle_deg != alike
+    more = with_overrides(cheap(), ["number_of_bubbles=4", "length=32.5"])
+    longer = Evaluation(
+        more, cell.model, cell.reason, cell.solid, cell.solutions, cell.seconds, (), cell.ends
+    )  # the same cell and the same ends: one more bubble is two more cells
+    added = longer.bending_angle_deg - cell.bending_angle_deg
+    assert added == pytest.approx(2 * cell.finest.rotation, rel=1e-12)
+    grown = longer.cavity_volume_mm3 - cell.cavity_volume_mm3
+    assert grown == pytest.approx(4 * cell.finest.path[-1].volume, rel=1e-9)
+
+
+@pytest.mark.parametrize("which", ["cell", pytest.param("half", marks=pytest.mark.slow)])
+def test_curve_ascends_to_the_evaluations_own_values(
+    which: str, request: pytest.FixtureRequest
+) -> None:
+    evaluation: Evaluation = request.getfixturevalue(which)
+    low, high = evaluation.curve
+    assert (low.pressure_mpa, high.pressure_mpa) == pytest.approx((0.02, 0.05), abs=1e-15)
+    assert 0 < low.bending_angle_deg < high.bending_angle_deg
+    assert 0 < low.max_von_mises_mpa < high.max_von_mises_mpa
+    assert 0 < low.cavity_volume_mm3 < high.cavity_volume_mm3
+    assert high == own_reading(evaluation)
+
+
+def test_path_ascends_from_zero_to_the_evaluations_own_values(cell: Evaluation) -> None:
+    path = cell.to_dict()["path"]
+    for key in ("pressure_mpa", "bending_angle_deg", "max_von_mises_mpa", "cavity_volume_mm3"):
+        values = [point[key] for point in path]
+        assert all(before < after for before, after in pairwise(values)), key
+    assert path[0]["bending_angle_deg"] == 0
+    assert Reading(**path[-1]) == own_reading(cell)
+
+
+def test_json_says_which_model_and_why_and_holds_the_curve(cell: Evaluation) -> None:
+    content = json.loads(json.dumps(cell.to_dict(), allow_nan=False))
+    assert content["model"] == "unit-cell"
+    assert content["model_reason"].startswith("3 bubbles deform alike")
+    keys = {"pressure_mpa", "bending_angle_deg", "max_von_mises_mpa", "cavity_volume_mm3"}
+    assert all(set(reading) == keys for reading in content["curve"]) and len(content["curve"]) == 2
+    last = content["curve"][-1]
+    assert {key: content[key] for key in keys} == pytest.approx(last)
+    assert len(content["meshes"]) == 3
+    assert {key: content["meshes"][-1][key] for key in keys} == pytest.approx(last)
+    for key in ("elements", "nodes", "unknowns"):
+        assert content["meshes"][-1][key] == content["mesh"][key]
+    assert content["mesh"]["unknowns"] < 3 * content["mesh"]["nodes"] * 1.2
+    assert content["contact"]["detected"] is False
+    assert 0 < content["contact"]["min_gap_mm"] < cell.design.bellows.bubble_distance
+
+
+def test_peak_is_placed_in_the_middle_bubble(cell: Evaluation) -> None:
+    x, y, z = cell.max_von_mises_position_mm
+    middle = cell.design.bellows.bubble_middles[1]
+    assert middle <= x <= middle + cell.design.bellows.pitch / 2
+    assert y >= 0 and 0 <= z <= cell.design.bellows.bubble_height
+
+
+def test_without_pressures_there_is_no_curve(cell: Evaluation) -> None:
+    from dataclasses import replace
+
+    assert replace(cell, pressures=()).curve == ()
+
+
+@pytest.mark.parametrize("pressure", [0.0, -0.01, 0.0501, float("nan")])
+def test_a_pressure_above_the_designs_or_below_zero_is_refused(pressure: float) -> None:
+    with pytest.raises(
+        ValueError, match=r"must lie between 0, excluded, and the design's 0\.05 MPa"
+    ):
+        evaluate(cheap(), pressures=(0.02, pressure))
+
+
+def agree(one: Evaluation, other: Evaluation, value: str, percent: str) -> None:
+    """Within twice the estimated errors: what an estimate is held to."""
+    errors = [getattr(of.error_estimate, percent) for of in (one, other)]
+    values = [getattr(of, value) for of in (one, other)]
+    assert all(error is not None for error in errors)
+    allowed = sum(error / 100 * own for error, own in zip(errors, values, strict=True))
+    assert abs(values[0] - values[1]) <= 2 * allowed, (values, errors)
+
+
+@pytest.mark.slow
+def test_cell_and_half_agree_within_their_estimated_errors(
+    cell: Evaluation, half: Evaluation
+) -> None:
+    assert half.model is HALF and half.reason == "as asked for"
+    agree(cell, half, "bending_angle_deg", "bending_angle_percent")
+    agree(cell, half, "max_von_mises_mpa", "max_von_mises_percent")
+    assert cell.cavity_volume_mm3 == pytest.approx(half.cavity_volume_mm3, rel=0.02)
+
+
+@pytest.mark.slow
+def test_the_whole_actuator_agrees_with_its_half() -> None:
+    single = cheap("number_of_bubbles=1", "length=12")
+    whole, half = evaluate(single, "full"), evaluate(single, "half")
+    assert whole.model is FULL and half.model is HALF
+    agree(whole, half, "bending_angle_deg", "bending_angle_percent")
+    agree(whole, half, "max_von_mises_mpa", "max_von_mises_percent")
+    assert whole.bending_angle_deg == pytest.approx(half.bending_angle_deg, rel=0.03)
+    assert whole.cavity_volume_mm3 == pytest.approx(half.cavity_volume_mm3, rel=2e-3)
+    sizes = [len(of.solutions[0].problem.mesh.tets) for of in (whole, half)]
+    assert sizes[0] == pytest.approx(2 * sizes[1], rel=0.2)

@@ -1,0 +1,242 @@
+"""Evaluation of whole designs: physics, error estimates, the JSON contract."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+
+import meshio
+import numpy as np
+import pytest
+
+from bellows_design import DesignError, load_design, with_overrides
+from bellows_design.analysis.budget import Budget
+from bellows_design.analysis.evaluate import evaluate, refined, write_vtu
+from bellows_design.analysis.evaluation import Evaluation
+from bellows_design.analysis.mesh_plan import first_mesh
+from bellows_design.analysis.models import UNIT_CELL
+from bellows_design.design.design import Design
+from bellows_design.study.paper import TABLE_4
+from solver import solve
+from solver.meshing.estimate import expected_memory
+
+TWO_BUBBLES = ("length=18", "offset=3", "number_of_bubbles=2")
+
+
+def short(*settings: str) -> Design:
+    """Prototype 1 cut down to two bubbles: the same physics in a tenth of the time."""
+    return with_overrides(load_design("prototype_1"), [*TWO_BUBBLES, *settings])
+
+
+@pytest.fixture(scope="module")
+def evaluation() -> Evaluation:
+    return evaluate(short())
+
+
+def test_pressure_bends_towards_the_tendon(evaluation: Evaluation) -> None:
+    tip = evaluation.finest.problem.mesh.surface_nodes("tip")
+    assert evaluation.converged
+    assert evaluation.bending_angle_deg > 30
+    assert evaluation.finest.displacement[tip, 2].mean() < 0
+
+
+def test_half_the_bubbles_bend_in_proportion(evaluation: Evaluation) -> None:
+    """Bubbles deform alike: one bubble bends about half as far as two, but for the ends."""
+    single = evaluate(short("number_of_bubbles=1", "length=11.5"))
+    assert single.bending_angle_deg == pytest.approx(evaluation.bending_angle_deg / 2, rel=0.15)
+
+
+def test_a_finer_mesh_agrees_within_the_estimated_error(evaluation: Evaluation) -> None:
+    finer = refined(evaluation)
+    assert len(finer.solutions) == 3
+    for value, other, percent in (
+        (
+            evaluation.bending_angle_deg,
+            finer.bending_angle_deg,
+            evaluation.error_estimate.bending_angle_percent,
+        ),
+        (
+            evaluation.max_von_mises_mpa,
+            finer.max_von_mises_mpa,
+            evaluation.error_estimate.max_von_mises_percent,
+        ),
+    ):
+        assert percent is not None
+        assert abs(value - other) <= percent / 100 * value
+
+
+def test_grid_sequencing_saves_the_load_path_on_the_finer_mesh(evaluation: Evaluation) -> None:
+    coarse, fine = evaluation.solutions
+    assert fine.load_steps == 1
+    assert fine.newton_iterations < coarse.newton_iterations
+    assert len(fine.problem.mesh.tets) > len(coarse.problem.mesh.tets)
+
+
+def test_cavity_grows_under_pressure_and_bubbles_fan_out(evaluation: Evaluation) -> None:
+    unloaded = evaluate(short("load.pressure=0.001"))
+    assert evaluation.cavity_volume_mm3 > 1.2 * unloaded.cavity_volume_mm3
+    assert not evaluation.contact.detected
+    assert not evaluation.contact.overlaps_itself
+    gap = evaluation.contact.min_gap_mm
+    assert gap is not None
+    assert 0 < gap < evaluation.design.bellows.bubble_distance
+
+
+def test_more_pressure_bends_further_and_stresses_more(evaluation: Evaluation) -> None:
+    angles = [point.rotation for point in evaluation.solutions[0].path]
+    stresses = [point.max_von_mises for point in evaluation.solutions[0].path]
+    assert np.all(np.diff(angles) > 0)
+    assert np.all(np.diff(stresses) > 0)
+
+
+def test_peak_stress_lies_on_the_cavity_under_a_chamber(evaluation: Evaluation) -> None:
+    """The paper: the highest stress is always in the bottom wall under a chamber."""
+    x, _, z = evaluation.peaks[-1].position
+    bellows = evaluation.design.bellows
+    from_middle = min(abs(x - middle) for middle in bellows.bubble_middles)
+    assert from_middle <= bellows.chamber_length / 2 + 1e-6
+    assert z < bellows.tendon_height
+
+
+def test_json_contract_is_kept(evaluation: Evaluation) -> None:
+    content = json.loads(json.dumps(evaluation.to_dict(), allow_nan=False))
+    assert {
+        "design",
+        "digest",
+        "model",
+        "model_reason",
+        "pressure_mpa",
+        "converged",
+        "bending_angle_deg",
+        "max_von_mises_mpa",
+        "max_von_mises_position_mm",
+        "cavity_volume_mm3",
+        "strain",
+        "warnings",
+        "contact",
+        "error_estimate",
+        "mesh",
+        "solver",
+        "seconds",
+        "meshes",
+        "path",
+        "curve",
+        "versions",
+    } <= set(content)
+    assert set(content["contact"]) >= {"detected", "min_gap_mm"}
+    assert set(content["mesh"]) == {"elements", "nodes", "unknowns"}
+    assert set(content["solver"]) == {
+        "load_steps",
+        "newton_iterations",
+        "factorizations",
+        "linear_solver",
+    }
+    assert set(content["seconds"]) == {"geometry", "mesh", "solve", "total"}
+    assert content["path"][0]["bending_angle_deg"] == 0
+    assert content["path"][-1]["pressure_mpa"] == pytest.approx(0.1)
+    assert content["mesh"]["elements"] == len(evaluation.finest.problem.mesh.tets)
+
+
+def test_strains_are_those_of_the_finest_mesh_and_warn_outside_of_the_tests(
+    evaluation: Evaluation,
+) -> None:
+    strain = evaluation.strain
+    assert -0.5 < strain.lowest < -0.05 and 0.05 < strain.highest < 1.0
+    assert strain.within is None and strain.instability is None and evaluation.warnings == ()
+    material = evaluation.design.material.model_copy(update={"valid_strain": (-0.02, 0.02)})
+    design = evaluation.design.model_copy(update={"material": material})
+    narrow = replace(evaluation, design=design)
+    assert narrow.strain.within is False
+    assert narrow.to_dict()["warnings"] == list(narrow.warnings) != []
+
+
+def test_vtu_holds_the_finest_solution(evaluation: Evaluation, tmp_path) -> None:
+    target = tmp_path / "bent.vtu"
+    write_vtu(evaluation, target)
+    read = meshio.read(target)
+    assert np.allclose(read.point_data["displacement_mm"], evaluation.finest.displacement)
+    assert read.point_data["von_mises_mpa"].max() == pytest.approx(evaluation.max_von_mises_mpa)
+    assert list(tmp_path.iterdir()) == [target]
+
+
+def test_accuracy_refines_until_the_estimate_keeps_it_or_the_memory_is_used_up() -> None:
+    slim = ("bubble_width=12", "bubble_height=10", "tendon_width=8", "load.pressure=0.01")
+    single = short("number_of_bubbles=1", "length=11.5", *slim)
+    little = Budget(memory=0.86)
+    rough = evaluate(single, accuracy_percent=100, budget=little)
+    fine = evaluate(single, accuracy_percent=0.01, budget=little)  # below what is ever claimed
+    assert len(rough.solutions) == 2 < len(fine.solutions)
+    assert expected_memory(len(fine.finest.problem.mesh.tets)) < 1.1 * little.memory * 2**30
+    assert not fine.can_refine and not fine.next_mesh.fits(little)
+    assert fine.next_mesh.elements > len(fine.finest.problem.mesh.tets)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        ({"model": "quarter"}, "model = 'quarter' must be one of"),
+        ({"accuracy_percent": 0.0}, "accuracy = 0 % must lie between"),
+        ({"accuracy_percent": float("nan")}, "accuracy = nan % must lie between"),
+    ],
+)
+def test_unusable_arguments_are_refused_before_any_work(arguments, sentence) -> None:
+    with pytest.raises(ValueError, match=sentence):
+        evaluate(short(), **arguments)
+
+
+def test_a_pressure_beyond_the_bounds_is_refused() -> None:
+    with pytest.raises(DesignError, match=r"load\.pressure"):
+        short("load.pressure=100")
+
+
+def test_an_unreachable_pressure_ends_with_the_last_good_state() -> None:
+    """A wall of silicone-soft rubber bursts: the solver says how far it came, never more."""
+    single = ("number_of_bubbles=1", "length=11.5")
+    soft = short(*single, "material.mu=[0.2]", "material.alpha=[2.0]", "load.pressure=0.1")
+    result = evaluate(soft)
+    assert not result.converged
+    assert "stopped at" in result.message
+    assert 0 < result.pressure_mpa < 0.1
+    assert result.error_estimate.bending_angle_percent is None
+    assert np.isfinite(result.finest.displacement).all()
+
+
+def test_a_wide_thin_bubble_is_loaded_along_stable_states_only() -> None:
+    """Its walls have unstable equilibria too, with three times the stress: Newton finds them."""
+    wide = with_overrides(
+        load_design("prototype_1"),
+        [
+            "bubble_width=24.65", "bubble_height=24.28", "bubble_thickness=1.23",
+            "tendon_width=15.61", "tendon_height=5.92", "tendon_thickness=2.24",
+            "chamber_length=2.94", "bubble_distance=2.17", "inner_fillet=0.61",
+            "outer_fillet=1.44", "length=60", "load.pressure=0.05",
+        ],
+    )  # fmt: skip
+    coarse = UNIT_CELL.problem(wide, first_mesh(UNIT_CELL.solid(wide), wide))
+    solution = solve(coarse, wide.load.pressure)
+    assert solution.converged, solution.message
+    assert solution.negative_pivots in (None, len(coarse.mesh.vertices))
+    angles, stresses = (
+        [getattr(p, of) for p in solution.path] for of in ("rotation", "max_von_mises")
+    )
+    assert np.all(np.diff(angles) > 0) and np.all(np.diff(stresses) > 0)
+    assert stresses[-1] < 3
+
+
+AGREEMENT_PERCENT = {
+    "Prototype 1": 5,
+    "bubble width 16": 5,
+    "bubble thickness 1.2": 5,
+    "tendon width 6": 8,
+    "inner fillet 1": 5,
+    # stands apart in every reading of the geometry: see "Against the paper" in the README
+    "bubble height 16": 12,
+}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("label", AGREEMENT_PERCENT)
+def test_bending_angle_agrees_with_the_paper(label: str) -> None:
+    case = next(row for row in TABLE_4 if row.label == label)
+    angle = evaluate(case.build()).bending_angle_deg
+    assert angle == pytest.approx(case.bending_angle_deg, rel=AGREEMENT_PERCENT[label] / 100)

@@ -1,0 +1,73 @@
+"""Size, cross-section and the bed."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import pytest
+
+from printers import PrinterProfile
+from printers.measure.surface import Surface, merged_surface
+from printers.rules.envelope import check_bed_contact, check_build_volume, check_cross_section
+
+
+def boxed(solids: SimpleNamespace, size: tuple[float, float, float]) -> Surface:
+    return merged_surface(*solids.arrays(solids.block(size, (-3, -4, 2))))
+
+
+@pytest.mark.parametrize(
+    ("size", "verdict"),
+    [
+        ((249, 209, 209), "pass"),
+        ((209, 249, 209), "pass"),  # turned by 90 degrees on the bed
+        ((209, 209, 249), "fail"),  # but not tipped over
+        ((251, 10, 10), "fail"),
+    ],
+)
+def test_a_part_may_be_turned_on_the_bed_but_not_tipped(
+    solids: SimpleNamespace,
+    prusa: PrinterProfile,
+    size: tuple[float, float, float],
+    verdict: str,
+) -> None:
+    assert check_build_volume(boxed(solids, size), prusa).verdict == verdict
+
+
+@pytest.mark.parametrize(
+    ("size", "verdict"),
+    [((50, 20, 20), "pass"), ((50, 20.5, 20), "fail"), ((50, 20, 21), "fail")],
+)
+def test_the_cross_section_leaves_out_the_length(
+    solids: SimpleNamespace, size: tuple[float, float, float], verdict: str
+) -> None:
+    result = check_cross_section(boxed(solids, size), (20, 20))
+    assert result.verdict == verdict
+    if verdict == "fail":
+        excess = max(size[1] - 20, size[2] - 20)
+        assert f"by {excess:.2f} mm" in result.message
+
+
+def test_a_box_stands_on_all_of_its_footprint_wherever_it_is(
+    solids: SimpleNamespace, prusa: PrinterProfile
+) -> None:
+    result = check_bed_contact(boxed(solids, (10, 12, 5)), prusa)
+    assert (result.verdict, result.measured) == ("pass", 120.0)
+
+
+def test_a_ball_does_not_stand(solids: SimpleNamespace, prusa: PrinterProfile) -> None:
+    ball = merged_surface(*solids.arrays(solids.Manifold.sphere(10.0, 64)))
+    result = check_bed_contact(ball, prusa)
+    assert (result.verdict, result.where) == ("fail", "nowhere")
+
+
+def test_a_box_on_four_thin_legs_stands_only_if_the_legs_are_wide_enough(
+    solids: SimpleNamespace, prusa: PrinterProfile
+) -> None:
+    for leg, verdict in ((1.0, "fail"), (4.0, "pass")):
+        table = solids.block((20, 20, 4), (0, 0, 6))
+        for x in (0.0, 20 - leg):
+            for y in (0.0, 20 - leg):
+                table = table + solids.block((leg, leg, 6), (x, y, 0))
+        result = check_bed_contact(merged_surface(*solids.arrays(table)), prusa)
+        assert result.measured == pytest.approx(4 * leg**2, abs=0.1)
+        assert result.verdict == verdict

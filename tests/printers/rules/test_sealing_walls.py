@@ -1,0 +1,110 @@
+"""The thinnest way from the cavity to the outside."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from printers import PrinterProfile, RuleResult, check_printability
+from printers.rules.sealing_walls import closest_on_triangles
+
+
+def thinnest(
+    solids: SimpleNamespace, solid: object, profile: PrinterProfile, **declared: object
+) -> dict[str, RuleResult]:
+    report = check_printability(solids.model(solid, **declared), profile)
+    return {r.rule: r for r in report.rules if r.rule.startswith("minimum_")}
+
+
+@settings(max_examples=15, deadline=None)
+@given(wall=st.floats(0.3, 2.5), angle=st.floats(0, 360))
+def test_the_sides_of_a_box_seal_from_three_lines_on(
+    solids: SimpleNamespace, prusa: PrinterProfile, wall: float, angle: float
+) -> None:
+    box = solids.hollow_box(wall=wall, floor=2.0, port=False).rotate((0.0, 0.0, angle))
+    lines = thinnest(solids, box, prusa)["minimum_lines"]
+    assert lines.measured == pytest.approx(wall, abs=0.002)
+    if abs(wall - 1.18) > 0.005:  # 1.2 mm less the stated facet tolerance
+        assert lines.verdict == ("pass" if wall > 1.18 else "fail")
+
+
+@pytest.mark.parametrize(("floor", "verdict"), [(0.8, "pass"), (0.9, "pass"), (0.7, "fail")])
+def test_a_floor_may_be_thinner_than_a_side_down_to_eight_layers(
+    solids: SimpleNamespace, prusa: PrinterProfile, floor: float, verdict: str
+) -> None:
+    results = thinnest(solids, solids.hollow_box(floor=floor, port=False), prusa)
+    assert results["minimum_layers"].verdict == verdict
+    assert results["minimum_layers"].measured == pytest.approx(floor, abs=1e-6)
+    assert results["minimum_lines"].verdict == "pass"
+
+
+def test_a_groove_under_the_floor_is_judged_by_its_layers(
+    solids: SimpleNamespace, prusa: PrinterProfile
+) -> None:
+    grooved = solids.hollow_box() - solids.block((2.4, 6.0, 0.4), (6, 2.2, 0))
+    results = thinnest(solids, grooved, prusa, openings=(solids.port_of(),))
+    assert results["minimum_layers"].verdict == "pass"
+    assert results["minimum_layers"].measured == pytest.approx(0.8, abs=1e-6)
+    assert results["minimum_lines"].verdict == "pass"
+    deep = solids.hollow_box() - solids.block((2.4, 6.0, 0.6), (6, 2.2, 0))
+    assert thinnest(solids, deep, prusa)["minimum_layers"].verdict == "fail"
+
+
+@settings(max_examples=10, deadline=None)
+@given(shift=st.floats(0, 1.5), angle=st.floats(0, 2 * np.pi))
+def test_a_shifted_bore_is_as_thin_as_geometry_says(
+    solids: SimpleNamespace, prusa: PrinterProfile, shift: float, angle: float
+) -> None:
+    x, y = shift * np.cos(angle), shift * np.sin(angle)
+    can = solids.bore(8.0, (0, 0, 0), 14, axis=2) - solids.bore(6.0, (x, y, 2), 10, axis=2)
+    lines = thinnest(solids, can, prusa)["minimum_lines"]
+    sag = 8 * (1 - np.cos(np.pi / 96))  # the polygon lies this far inside its circle
+    assert lines.measured == pytest.approx(2 - shift, abs=2 * sag)
+
+
+def test_an_edge_that_points_at_a_fillet_is_found(
+    solids: SimpleNamespace, prusa: PrinterProfile
+) -> None:
+    # Flat walls are 1.2 mm, but the sharp edge of the cavity is nearer to the fillet outside:
+    # sqrt(2) (1.9 - 1.2) mm from its centre, 1.9 mm of radius.
+    part = solids.rounded_bar(14.4, 14.4, 14.4, 1.9, (0, 0, 0)) - solids.block(
+        (12, 12, 12), (1.2, 1.2, 1.2)
+    )
+    upright = part.rotate((90.0, 0.0, 0.0))
+    lines = thinnest(solids, upright, prusa)["minimum_lines"]
+    assert lines.verdict == "fail"
+    assert lines.measured == pytest.approx(1.9 - np.sqrt(2) * 0.7, abs=0.01)
+
+
+def test_the_edge_of_the_port_is_no_thin_wall(
+    solids: SimpleNamespace, prusa: PrinterProfile
+) -> None:
+    results = thinnest(solids, solids.hollow_box(), prusa, openings=(solids.port_of(),))
+    assert results["minimum_lines"].measured == pytest.approx(1.2, abs=1e-6)
+
+
+def test_without_a_cavity_the_parallel_walls_are_judged(
+    solids: SimpleNamespace, prusa: PrinterProfile
+) -> None:
+    for wall, verdict in ((1.2, "pass"), (0.8, "fail")):
+        leaking = solids.hollow_box(wall=wall) - solids.bore(0.5, (5, 5, 5), 20)
+        lines = thinnest(solids, leaking, prusa, openings=(solids.port_of(wall=wall),))
+        assert lines["minimum_lines"].verdict == verdict
+        assert "no cavity closes" in lines["minimum_lines"].message
+
+
+@settings(max_examples=50, deadline=None)
+@given(st.integers(0, 2**32 - 1))
+def test_no_point_of_a_triangle_is_nearer_than_the_closest(seed: int) -> None:
+    random = np.random.default_rng(seed)
+    corners, point = random.normal(size=(1, 3, 3)), 2 * random.normal(size=(1, 3))
+    closest = closest_on_triangles(corners, point)[0]
+    weights = random.dirichlet([0.5] * 3, size=4000)
+    others = weights @ corners[0]
+    distance = np.linalg.norm(closest - point[0])
+    assert distance <= np.linalg.norm(others - point[0], axis=1).min() + 1e-12
+    assert np.linalg.norm(others - closest, axis=1).min() < 0.3

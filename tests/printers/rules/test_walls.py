@@ -1,0 +1,192 @@
+"""Whole numbers of lines and layers, read from the declaration and measured on the mesh."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from printers import DeclaredWall, PrintabilityReport, PrinterProfile, check_printability
+from printers.measure.surface import merged_surface
+from printers.rules.walls import group_by_thickness
+
+
+def with_lines(profile: PrinterProfile, line_width: float) -> PrinterProfile:
+    values = profile.model_dump()
+    slicer = values["slicer"] | {"print_speed": 5.0}
+    changed = {"line_width": line_width, "nozzle_diameter": line_width, "slicer": slicer}
+    return PrinterProfile(**(values | changed))
+
+
+def verdicts(report: PrintabilityReport, rule: str, unit: str) -> set[str]:
+    return {r.verdict for r in report.rules if r.rule == rule and r.unit == unit}
+
+
+@settings(max_examples=20, deadline=None)
+@given(
+    lines=st.integers(1, 5),
+    line_width=st.sampled_from([0.3, 0.4, 0.42, 0.6]),
+    half=st.booleans(),
+    angle=st.floats(0, 360),
+)
+def test_a_wall_of_whole_lines_passes_and_half_a_line_more_fails(
+    solids: SimpleNamespace,
+    prusa: PrinterProfile,
+    lines: int,
+    line_width: float,
+    half: bool,
+    angle: float,
+) -> None:
+    wall = (lines + half / 2) * line_width
+    box = solids.hollow_box(wall=wall, floor=1.2).rotate((0.0, 0.0, angle))
+    profile = with_lines(prusa, line_width)
+    declared = (DeclaredWall("side", wall), DeclaredWall("floor", 1.2, "layers"))
+    report = check_printability(solids.model(box, walls=declared), profile)
+    expected = {"fail"} if half else {"pass"}
+    assert verdicts(report, "wall_multiple", "lines") == expected
+    assert verdicts(report, "wall_multiple_measured", "lines") == expected
+    assert verdicts(report, "wall_multiple_measured", "layers") == {"pass"}
+    assert {r.verdict for r in report.rules if r.rule == "wall_as_declared"} == {"pass"}
+    measured = [r for r in report.rules if r.rule == "wall_multiple_measured" and r.unit == "lines"]
+    assert [r.measured for r in measured] == [pytest.approx(lines + half / 2, abs=0.01)]
+
+
+@settings(max_examples=10, deadline=None)
+@given(layers=st.integers(8, 20), half=st.booleans())
+def test_a_floor_of_whole_layers_passes_and_half_a_layer_more_fails(
+    solids: SimpleNamespace, prusa: PrinterProfile, layers: int, half: bool
+) -> None:
+    box = solids.hollow_box(wall=1.2, floor=(layers + half / 2) * 0.1)
+    report = check_printability(solids.model(box), prusa)
+    assert verdicts(report, "wall_multiple_measured", "layers") == {"fail" if half else "pass"}
+    assert verdicts(report, "wall_multiple_measured", "lines") == {"pass"}
+
+
+def test_the_paper_s_first_walls_are_three_and_three_quarter_lines(
+    solids: SimpleNamespace, prusa: PrinterProfile
+) -> None:
+    box = solids.model(solids.hollow_box(wall=1.5), walls=(DeclaredWall("bubble", 1.5),))
+    rules = check_printability(box, prusa).rules
+    (declared,) = [r for r in rules if r.rule == "wall_multiple"]
+    (measured,) = [r for r in rules if r.rule == "wall_multiple_measured" and r.unit == "lines"]
+    assert (declared.verdict, declared.measured) == ("fail", 3.75)
+    assert (measured.verdict, measured.measured) == ("fail", 3.75)
+    assert "1.500 mm" in measured.message
+
+
+def test_a_thin_wall_of_many_is_found_with_its_place(
+    solids: SimpleNamespace, prusa: PrinterProfile
+) -> None:
+    recess = solids.block((0.4, 6, 6), (14.2, 2.2, 2.2))  # leaves 1.0 of 1.2 mm at x = 14.4
+    report = check_printability(solids.model(solids.hollow_box(port=False) - recess), prusa)
+    (odd,) = [r for r in report.failures if r.rule == "wall_multiple_measured"]
+    assert odd.measured == 2.5
+    x, y, z = (float(value) for value in odd.where.strip("() m").split(","))
+    assert 13.2 <= x <= 14.2
+    assert 2.2 <= y <= 8.2
+    assert 2.2 <= z <= 8.2
+
+
+def test_a_declared_wall_that_the_mesh_does_not_have_is_named(
+    solids: SimpleNamespace, prusa: PrinterProfile
+) -> None:
+    walls = (DeclaredWall("side", 1.6), DeclaredWall("floor", 1.2, "layers"))
+    report = check_printability(solids.model(solids.hollow_box(), walls=walls), prusa)
+    found = {r.where: r for r in report.rules if r.rule == "wall_as_declared"}
+    assert found["floor"].verdict == "pass"
+    assert (found["side"].verdict, found["side"].measured) == ("fail", 1.2)
+
+
+def wedge(solids: SimpleNamespace, thin: float, thick: float) -> Any:
+    """Hollow box whose wall at x = 0 grows from thin at the bottom to thick at the top."""
+    outer = solids.block((16, 12, 12), (0, 0, 0))
+    inner = solids.block((20, 9.6, 9.6), (0, 1.2, 1.2))
+    lean = np.array([(thin, 0.0), (14.8, 0.0), (14.8, 12.0), (thick, 12.0)])
+    cut = solids.Manifold.extrude(solids.CrossSection([lean]), 12.0)
+    return outer - (inner ^ cut.rotate((90.0, 0.0, 0.0)).translate((0.0, 12.0, 0.0)))
+
+
+def test_a_wedge_is_no_wall_of_whole_lines(solids: SimpleNamespace, prusa: PrinterProfile) -> None:
+    report = check_printability(solids.model(wedge(solids, 1.2, 2.0)), prusa)
+    tapered = [r for r in report.failures if r.rule == "wall_multiple_measured"]
+    assert len(tapered) == 1
+    assert "tapers" in tapered[0].message
+    straight = check_printability(solids.model(wedge(solids, 1.6, 1.6)), prusa)
+    assert not [r for r in straight.failures if r.rule == "wall_multiple_measured"]
+
+
+@pytest.mark.parametrize(("wall", "verdict"), [(1.2, "pass"), (1.4, "fail")])
+def test_a_curved_wall_of_constant_thickness_is_measured(
+    solids: SimpleNamespace, prusa: PrinterProfile, wall: float, verdict: str
+) -> None:
+    can = solids.bore(6 + wall, (0, 0, 0), 14, axis=2) - solids.bore(6, (0, 0, 1.2), 11.6, axis=2)
+    report = check_printability(solids.model(can), prusa)
+    sides = [r for r in report.rules if r.rule == "wall_multiple_measured" and r.unit == "lines"]
+    assert [r.verdict for r in sides] == [verdict]
+    assert sides[0].measured == pytest.approx(wall / 0.4, abs=0.02)
+
+
+def test_corners_whose_fillets_do_not_match_are_no_walls(
+    solids: SimpleNamespace, prusa: PrinterProfile
+) -> None:
+    outer = solids.rounded_bar(14.4, 14.4, 14.4, 1.5, (0, 0, 0))
+    inner = solids.rounded_bar(12, 12, 12, 0.5, (1.2, 1.2, 1.2))
+    report = check_printability(solids.model(outer - inner), prusa)
+    measured = {r.measured for r in report.rules if r.rule == "wall_multiple_measured"}
+    assert measured == {3.0, 12.0}
+
+
+def test_a_flange_that_seals_nothing_may_have_any_thickness(
+    solids: SimpleNamespace, prusa: PrinterProfile
+) -> None:
+    flange = solids.block((3.0, 1.5, 8), (14, 4, 0))
+    report = check_printability(solids.model(solids.hollow_box(port=False) + flange), prusa)
+    assert not [r for r in report.failures if r.rule == "wall_multiple_measured"]
+
+
+def measured_walls(report: PrintabilityReport) -> list[tuple[str, str, float]]:
+    return [
+        (r.verdict, r.unit, float(r.measured))
+        for r in report.rules
+        if r.rule == "wall_multiple_measured"
+    ]
+
+
+def test_refining_and_renumbering_the_mesh_changes_no_wall(
+    solids: SimpleNamespace, prusa: PrinterProfile
+) -> None:
+    box = solids.hollow_box(wall=1.5, floor=0.8)
+    coarse = check_printability(solids.model(box), prusa)
+    fine = check_printability(solids.model(box.refine_to_length(0.6)), prusa)
+    vertices, triangles = solids.arrays(box)
+    order = np.random.default_rng(7).permutation(len(vertices))
+    shuffled = np.roll(np.argsort(order)[triangles], 1, axis=1)[::-1]
+    model = type(solids.model(box))(vertices[order], shuffled)
+    assert measured_walls(coarse) == measured_walls(fine)
+    assert measured_walls(coarse) == measured_walls(check_printability(model, prusa))
+
+
+def test_specks_are_no_group_and_close_values_are_one() -> None:
+    values = np.array([1.2] * 30 + [1.21] * 30 + [1.4] * 2 + [1.6] * 30)
+    groups = [values[flags].mean() for flags in group_by_thickness(values, area=0.1)]
+    assert groups == [pytest.approx(1.205), pytest.approx(1.6)]
+
+
+def test_sampling_by_area_does_not_see_the_triangles(solids: SimpleNamespace) -> None:
+    from printers.measure.surface import sample
+
+    box = merged_surface(*solids.arrays(solids.block((10, 10, 10), (0, 0, 0))))
+    odd = merged_surface(
+        *solids.arrays(solids.block((10, 10, 10), (0, 0, 0)).refine_to_length(1.0))
+    )
+    for surface in (box, odd):
+        points = sample(surface, 4.0, (100, 10_000))
+        assert len(points.points) == 2400
+        on_top = points.points[points.points[:, 2] > 10 - 1e-9]
+        counts = np.histogram2d(on_top[:, 0], on_top[:, 1], bins=4, range=[[0, 10]] * 2)[0]
+        assert counts.sum() == pytest.approx(400, rel=0.02)
+        assert np.abs(counts - 25).max() <= 7

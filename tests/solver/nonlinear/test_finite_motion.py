@@ -1,0 +1,75 @@
+"""Finite motions along an axis, and rotations past a whole turn."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from solver import Mesh, SlenderAxis, rotation
+from solver.nonlinear.finite_motion import motion_along
+
+BoxMesh = Callable[..., Mesh]
+AXIS = SlenderAxis(tuple(np.linspace(0.0, 20.0, 11)))
+
+
+def bar(box: BoxMesh) -> Mesh:
+    mesh = box((20, 1, 2), (20.0, 1.0, 2.0))
+    return Mesh(mesh.nodes, mesh.tets, {**mesh.surfaces, "tip": mesh.surfaces["x1"]})
+
+
+def bent(nodes: NDArray[np.float64], degrees: float, middle: float = 1.0) -> NDArray[np.float64]:
+    """Displacement of a bar bent to an arc of constant length at z = ``middle``, to -z."""
+    curvature = np.radians(degrees) / 20.0
+    angle, radius = curvature * nodes[:, 0], 1 / curvature + nodes[:, 2] - middle
+    arc = np.stack([radius * np.sin(angle), nodes[:, 1], radius * np.cos(angle)], axis=1)
+    return arc - [0, 0, 1 / curvature - middle] - nodes
+
+
+@pytest.mark.parametrize("degrees", [5.0, 90.0, 179.0, 200.0, 350.0, 470.0, -30.0, -400.0])
+def test_tip_rotation_counts_whole_turns_and_is_positive_towards_minus_z(
+    box: BoxMesh, degrees: float
+) -> None:
+    mesh = bar(box)
+    displacement = bent(mesh.nodes, degrees)
+    assert rotation(mesh, displacement) == pytest.approx(degrees, abs=1e-9)
+    if 0 < degrees < 170:
+        assert displacement[mesh.surface_nodes("tip"), 2].mean() < 0
+
+
+def test_rotation_without_the_surface_is_not_a_number(box: BoxMesh) -> None:
+    mesh = box((1, 1, 1))
+    assert np.isnan(rotation(mesh, np.zeros(mesh.nodes.shape)))
+
+
+def test_a_small_increment_is_applied_as_it_stands(box: BoxMesh) -> None:
+    mesh = bar(box)
+    move, start = motion_along(mesh, AXIS), bent(mesh.nodes, 120.0)
+    increment = np.random.default_rng(1).normal(size=mesh.nodes.shape)
+    increment[mesh.nodes[:, 0] == 0] = 0.0
+    errors = [abs(move(start, h * increment) - start - h * increment).max() for h in (1e-3, 1e-4)]
+    assert errors[0] < 1e-2 * 1e-3
+    assert errors[0] / errors[1] == pytest.approx(100, rel=0.1)  # second order
+
+
+def test_a_linear_bending_increment_becomes_an_arc(box: BoxMesh) -> None:
+    mesh = bar(box)
+    slope = (bent(mesh.nodes, 0.001) - bent(mesh.nodes, -0.001)) / 0.002
+    moved = motion_along(mesh, AXIS)(np.zeros(mesh.nodes.shape), 90.0 * slope)
+    added = motion_along(mesh, None)(np.zeros(mesh.nodes.shape), 90.0 * slope)
+    exact = bent(mesh.nodes, 90.0)
+    assert rotation(mesh, moved) == pytest.approx(90.0, abs=1.0)
+    assert abs(moved - exact).max() < 0.4
+    assert abs(added - exact).max() > 7.0
+
+
+def test_the_held_end_and_the_symmetry_plane_stay(box: BoxMesh) -> None:
+    mesh = bar(box)
+    slope = (bent(mesh.nodes, 0.001) - bent(mesh.nodes, -0.001)) / 0.002
+    root = mesh.nodes[:, 0] == 0
+    increment = np.where(root[:, None], 0.0, 60.0 * slope)
+    moved = motion_along(mesh, AXIS)(np.zeros(mesh.nodes.shape), increment)
+    assert abs(moved[root]).max() < 1e-13
+    assert not moved[:, 1].any()
