@@ -40,7 +40,11 @@ _MOST_PROBLEMS = 20
 _LONGEST_COMPARED = 200
 
 
-class DesignError(ValueError):
+class BellowsError(ValueError):
+    """Base of the errors of this package whose sentences are meant for users."""
+
+
+class DesignError(BellowsError):
     """Input that describes no design: one sentence per problem, one problem per line."""
 
     def __init__(self, *sentences: str) -> None:

@@ -342,7 +342,7 @@ def _series(
 
 def _collected(sequence: Iterable[Evaluation]) -> tuple[list[tuple[Evaluation, Level]], str]:
     """Every evaluation with its level; and why there is no next mesh, if meshing fails."""
-    from solver.meshing.solid import MeshingError
+    from solver.errors import MeshingError
 
     found: list[tuple[Evaluation, Level]] = []
     try:

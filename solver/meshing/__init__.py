@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 from solver.lazy_names import imported_when_asked_for
 
 if TYPE_CHECKING:
-    from solver.meshing.solid import MeshingError, MeshOptions, SizeField, mesh_solid
+    from solver.errors import MeshingError
+    from solver.meshing.solid import MeshOptions, SizeField, mesh_solid
 
 __all__ = ["MeshOptions", "MeshingError", "SizeField", "mesh_solid"]
 

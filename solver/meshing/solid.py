@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from solver.arrays import Reals
+from solver.errors import MeshingError
 from solver.mesh.elements import TETRAHEDRON_EDGES
 from solver.mesh.mesh import Mesh
 from solver.mesh.mid_nodes import SMALLEST_RATIO, jacobian_ratios, relaxed
@@ -22,10 +23,6 @@ FACES_OF_A_TETRAHEDRON = ((1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1))  # each se
 
 SIZE_OF_EDGE = 0.83
 """Size to ask of Gmsh for a mean edge of 1: its tetrahedra come out that much larger."""
-
-
-class MeshingError(RuntimeError):
-    """Gmsh could not mesh the solid, or not well enough; the message says where."""
 
 
 @dataclass(frozen=True)

@@ -231,7 +231,7 @@ def test_the_json_contract() -> None:
 
 
 def test_a_sequence_ends_where_meshing_fails(monkeypatch: pytest.MonkeyPatch) -> None:
-    from solver.meshing.solid import MeshingError
+    from solver.errors import MeshingError
 
     def one_and_no_more(*_: Any) -> Any:
         yield "evaluation"

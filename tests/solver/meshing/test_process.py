@@ -17,11 +17,12 @@ import cadquery as cq
 import numpy as np
 import pytest
 
+from solver.errors import MeshingError
 from solver.mesh.mesh import Mesh
 from solver.meshing import process as meshing_process
 from solver.meshing.gmsh_calls import meshed
 from solver.meshing.messages import Message, receive, send
-from solver.meshing.solid import MeshingError, MeshOptions, mesh_solid
+from solver.meshing.solid import MeshOptions, mesh_solid
 
 ROOT = Path(__file__).parents[3]
 HUGE = MeshOptions(size=0.04, smallest_size=0.01)

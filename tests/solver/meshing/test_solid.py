@@ -12,9 +12,10 @@ import pytest
 from numpy.typing import NDArray
 
 from solver import Mesh
+from solver.errors import MeshingError
 from solver.mesh.elements import triangle_rule
 from solver.mesh.mid_nodes import SMALLEST_RATIO, jacobian_ratios
-from solver.meshing.solid import MeshingError, MeshOptions, mesh_solid
+from solver.meshing.solid import MeshOptions, mesh_solid
 
 Array = NDArray[np.float64]
 COARSE, FINE = MeshOptions(size=1.4, elements_per_circle=0), MeshOptions(0.7, 0)
