@@ -23,10 +23,12 @@ if TYPE_CHECKING:
     from solver.nonlinear.newton import Event, SolverOptions
     from solver.nonlinear.volume_control import inflate
     from solver.problem.loads import BodyForce, Couple, PointForce, Traction
-    from solver.problem.problem import Contact, Problem, SlenderAxis, Supports
+    from solver.problem.problem import Contact, Problem, SlenderAxis
+    from solver.problem.supports import Supports
     from solver.results.reactions import Reaction, reaction
-    from solver.results.solution import PathPoint, Solution, cavity_volume, write_vtu
+    from solver.results.solution import PathPoint, Solution, cavity_volume
     from solver.results.stress import Peak, nodal_cauchy, nodal_von_mises, peak_von_mises
+    from solver.results.vtu import write_vtu
 
 __all__ = [
     "BodyForce",
@@ -75,9 +77,11 @@ __getattr__ = imported_when_asked_for(
         "nonlinear.newton": ("Event", "SolverOptions"),
         "nonlinear.volume_control": ("inflate",),
         "problem.loads": ("BodyForce", "Couple", "PointForce", "Traction"),
-        "problem.problem": ("Contact", "Problem", "SlenderAxis", "Supports"),
+        "problem.problem": ("Contact", "Problem", "SlenderAxis"),
         "results.reactions": ("Reaction", "reaction"),
-        "results.solution": ("PathPoint", "Solution", "cavity_volume", "write_vtu"),
+        "problem.supports": ("Supports",),
+        "results.solution": ("PathPoint", "Solution", "cavity_volume"),
+        "results.vtu": ("write_vtu",),
         "results.stress": ("Peak", "nodal_cauchy", "nodal_von_mises", "peak_von_mises"),
     },
 )

@@ -276,7 +276,7 @@ def _percent(error: float, value: float) -> float | None:
 
 
 def _size(solution: Solution) -> dict[str, int]:
-    from solver.problem.supports import number_unknowns
+    from solver.problem.unknowns import number_unknowns
 
     problem = solution.problem
     unknowns = number_unknowns(problem.mesh, problem.supports, problem.moving_plane).size

@@ -373,7 +373,7 @@ def _level(evaluation: Evaluation, before: Level | None) -> Level:
 
 def work_of(solution: Solution) -> Work:
     """Size and effort of a solve."""
-    from solver.problem.supports import number_unknowns
+    from solver.problem.unknowns import number_unknowns
 
     problem = solution.problem
     return Work(

@@ -8,17 +8,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from solver.arrays import Integers, Reals
+from solver.assembly.colouring import chunks
 from solver.assembly.contact import Touches
 from solver.assembly.moving_plane import MovingPlane
 from solver.assembly.pressure import Skin, assemble_pressure, assemble_volume, skin
 from solver.assembly.state import State
+from solver.errors import SolverError
 from solver.kernels import kernels
-from solver.linear.sparsity import Pattern, chunks, upper_pattern
+from solver.linear.sparsity import Pattern, upper_pattern
 from solver.mesh.elements import tetrahedron_rule
 from solver.mesh.mesh import Mesh
 from solver.problem.loads import couple, nodal_forces
-from solver.problem.problem import Problem, Supports
-from solver.problem.supports import Numbering, number_unknowns
+from solver.problem.problem import Problem
+from solver.problem.supports import Supports
+from solver.problem.unknowns import Numbering, number_unknowns
 
 
 @dataclass(frozen=True)
@@ -198,12 +201,12 @@ def solid(problem: Problem) -> kernels.Solid:
 
 
 def check_orientation(mesh: Mesh) -> None:
-    """Raise ``ValueError`` if a tetrahedron has no positive volume at a quadrature point."""
+    """Raise ``SolverError`` if a tetrahedron has no positive volume at a quadrature point."""
     tangents = np.einsum("qad,eai->eqdi", tetrahedron_rule().gradients, mesh.nodes[mesh.tets])
     smallest = np.linalg.det(tangents).min(axis=1)
     if not (smallest > 0).all():
         worst = int(smallest.argmin())
-        raise ValueError(
+        raise SolverError(
             f"mesh: tetrahedron {worst} is turned inside out "
             f"(Jacobian {smallest[worst]:.3g} mm^3, must be positive)."
         )

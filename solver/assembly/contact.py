@@ -33,13 +33,14 @@ from numba import njit
 from solver.arrays import Integers, Reals
 from solver.assembly.moving_plane import MovingPlane
 from solver.assembly.state import State
+from solver.errors import SolverError
 from solver.kernels.kernels import mirror_upper, scatter, to_plane_unknowns
 from solver.linear.sparsity import Pattern, widened
 from solver.mesh.elements import triangle_rule
 from solver.mesh.mesh import Mesh
 from solver.mesh.proximity import OPPOSING, facet_normals
 from solver.problem.problem import Contact, Problem
-from solver.problem.supports import Numbering
+from solver.problem.unknowns import Numbering
 
 UNKNOWNS = 20
 """Of a triangle: three for each of six nodes, then tilt and shift of the moving plane."""
@@ -314,7 +315,7 @@ def lowest_gaps(problem: Problem, displacement: Reals, plane: Reals) -> tuple[fl
     ``displacement`` (n, 3) in mm; ``plane`` (2,) tilt (rad) and shift (mm) of the moving plane.
     Negative where something touches: by so much the penalty lets it through.
     """
-    from solver.problem.supports import number_unknowns
+    from solver.problem.unknowns import number_unknowns
 
     state = State(displacement, np.zeros(0), np.asarray(plane, float))
     numbering = number_unknowns(problem.mesh, problem.supports, problem.moving_plane)
@@ -387,12 +388,12 @@ def _end(problem: Problem) -> float:
 
 
 def _check_apart(problem: Problem, touches: tuple[Touch, ...]) -> None:
-    """Raise ``ValueError`` if a surface lies beyond its plane from the start."""
+    """Raise ``SolverError`` if a surface lies beyond its plane from the start."""
     still = State.zero(problem)
     for touch in touches:
         lowest = float(touch.gaps(still).min(initial=0.0))
         if lowest < -INITIAL_CROSSING * problem.mesh.size:
-            raise ValueError(
+            raise SolverError(
                 f"contacts: the surface {touch.contact.surface!r} lies {-lowest:.3g} mm beyond its "
                 "plane before any load; it must be on one side."
             )

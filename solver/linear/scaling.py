@@ -13,7 +13,7 @@ from solver.arrays import Reals
 from solver.linear.solvers import LinearSolver
 from solver.linear.sparsity import Pattern
 from solver.problem.problem import Problem
-from solver.problem.supports import Numbering
+from solver.problem.unknowns import Numbering
 
 LENGTHS, MODULI = (1e-2, 1e2), (1e-4, 1e4)
 """Mean edges (mm) and shear moduli (MPa) that need no scaling."""

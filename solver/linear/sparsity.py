@@ -12,7 +12,7 @@ from numba import njit, prange
 from numpy.typing import NDArray
 
 from solver.arrays import Integers
-from solver.mesh.mesh import Mesh
+from solver.errors import SolverError
 
 
 @dataclass(frozen=True)
@@ -40,7 +40,7 @@ def upper_pattern(dofs: Integers, size: int) -> Pattern:
     _count_columns(dofs, cell_ptr, cells, counts)
     indptr = np.cumsum(counts)
     if indptr[-1] > np.iinfo(np.int32).max:
-        raise ValueError(f"mesh: {size} unknowns couple in more entries than 32-bit CSR holds.")
+        raise SolverError(f"mesh: {size} unknowns couple in more entries than 32-bit CSR holds.")
     indices = np.empty(indptr[-1], np.int32)
     _fill_columns(dofs, cell_ptr, cells, indptr, indices)
     return Pattern(indptr.astype(np.int32), indices)
@@ -71,37 +71,6 @@ def incidence(table: Integers, size: int) -> tuple[Integers, Integers]:
 
 
 @njit(cache=True)
-def connected_parts(cells: Integers, size: int) -> Integers:
-    """Number of the part that each of ``size`` nodes belongs to, -1 for nodes of no cell (n,).
-
-    Cells (e, m) that share a node belong to one part.
-    """
-    parent = np.arange(size)
-    for cell in cells:
-        root = _root(parent, cell[0])
-        for node in cell[1:]:
-            parent[_root(parent, node)] = root
-    parts = np.full(size, -1, np.int32)
-    count = 0
-    for node in np.unique(cells):
-        root = _root(parent, node)
-        if parts[root] < 0:
-            parts[root] = count
-            count += 1
-        parts[node] = parts[root]
-    return parts
-
-
-@njit(cache=True)
-def _root(parent: NDArray[np.int64], node: int) -> int:
-    """Where the parents of a node end; the way there is halved for the next time."""
-    while parent[node] != node:
-        parent[node] = parent[parent[node]]
-        node = parent[node]
-    return node
-
-
-@njit(cache=True)
 def is_odd(permutation: Integers) -> bool:
     """Whether a permutation (n,) is made of an odd number of swaps."""
     seen = np.zeros(len(permutation), np.bool_)
@@ -114,49 +83,6 @@ def is_odd(permutation: Integers) -> bool:
                 seen[place] = True
                 place = permutation[place]
     return (len(permutation) - cycles) % 2 == 1
-
-
-def chunks(
-    mesh: Mesh, elements: NDArray[np.int64] | None = None
-) -> tuple[Integers, Integers, Integers]:
-    """All or some elements in chunks, the chunks in colours: chunks of one colour share no node.
-
-    Chunks are slabs across the longest side of the body, so that few colours suffice. Returns the
-    elements chunk by chunk (e,), where each chunk starts (c + 1,), and at which chunk each colour
-    starts (k + 1,).
-    """
-    elements = np.arange(len(mesh.tets)) if elements is None else elements
-    if len(elements) == 0:
-        return np.zeros(0, np.int32), np.zeros(1, np.int32), np.zeros(1, np.int32)
-    centres = mesh.nodes[mesh.tets[elements]].mean(axis=1)
-    along = centres[:, np.ptp(centres, axis=0).argmax()]
-    count = int(np.clip(len(centres) // ELEMENTS_PER_CHUNK, 1, MOST_CHUNKS))
-    order = elements[np.argsort(along, kind="stable")].astype(np.int32)
-    slabs = np.array_split(order, count)
-    touched = np.zeros((count, len(mesh.nodes)), np.float32)
-    for slab, nodes in zip(slabs, touched, strict=True):
-        nodes[mesh.tets[slab]] = 1.0
-    colours = _colour(touched @ touched.T > 0)
-    by_colour = np.argsort(colours, kind="stable")
-    lengths = [len(slabs[slab]) for slab in by_colour]
-    return (
-        np.concatenate([slabs[slab] for slab in by_colour]),
-        np.cumsum([0, *lengths], dtype=np.int32),
-        np.cumsum([0, *np.bincount(colours)], dtype=np.int32),
-    )
-
-
-ELEMENTS_PER_CHUNK = 64
-MOST_CHUNKS = 64
-
-
-def _colour(touching: NDArray[np.bool_]) -> list[int]:
-    """Greedy colouring of a graph given by its symmetric adjacency matrix."""
-    colours: list[int] = []
-    for node, neighbours in enumerate(touching):
-        taken = {colours[other] for other in np.flatnonzero(neighbours[:node])}
-        colours.append(next(c for c in range(node + 1) if c not in taken))
-    return colours
 
 
 @njit(cache=True)

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from solver.arrays import Reals
+from solver.errors import SolverError
 
 Volumetric = Literal["quadratic", "logarithmic"]
 
@@ -30,7 +31,7 @@ class Ogden:
 
     Every mu_k is positive, which is Hill's inequality in this form: such a material is stable at
     every strain as long as no ``higher`` is negative. Negative ones, common in Yeoh's model, are
-    taken, and are stable up to some strain only. Raises ``ValueError`` for other mu, when a number
+    taken, and are stable up to some strain only. Raises ``SolverError`` for other mu, when a number
     is not finite, when the lengths of ``mu`` and ``alpha`` differ, and for an unknown law.
     """
 
@@ -59,21 +60,21 @@ class Ogden:
         for name in ("mu", "alpha", "higher"):
             object.__setattr__(self, name, tuple(float(value) for value in getattr(self, name)))
         if len(self.mu) != len(self.alpha) or not self.mu:
-            raise ValueError(
+            raise SolverError(
                 "Ogden: mu and alpha need the same number of terms, at least one, "
                 f"got {len(self.mu)} and {len(self.alpha)}."
             )
         for value in self.mu:
             if not (math.isfinite(value) and value > 0):
-                raise ValueError(f"Ogden: mu must be positive and finite, got {value} MPa.")
+                raise SolverError(f"Ogden: mu must be positive and finite, got {value} MPa.")
         for name, unit in (("alpha", ""), ("higher", " MPa")):
             for value in getattr(self, name):
                 if not math.isfinite(value):
-                    raise ValueError(f"Ogden: {name} must be finite, got {value}{unit}.")
+                    raise SolverError(f"Ogden: {name} must be finite, got {value}{unit}.")
         if not self.bulk_modulus > 0:
-            raise ValueError(f"Ogden: bulk_modulus must be positive, got {self.bulk_modulus} MPa.")
+            raise SolverError(f"Ogden: bulk_modulus must be positive, got {self.bulk_modulus} MPa.")
         if self.volumetric not in ("quadratic", "logarithmic"):
-            raise ValueError(
+            raise SolverError(
                 f"Ogden: volumetric must be quadratic or logarithmic, got {self.volumetric!r}."
             )
 

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from solver.arrays import Integers
+from solver.errors import SolverError
 from solver.mesh.elements import TETRAHEDRON_EDGES as EDGES
 from solver.mesh.elements import TRIANGLE_EDGES
 from solver.mesh.mesh import Mesh
@@ -15,20 +16,20 @@ FACES = ((0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2))
 
 
 def check_mesh(mesh: Mesh, pressurised: tuple[str, ...], loaded: tuple[str, ...] = ()) -> None:
-    """Raise ``ValueError`` for a mesh that is no body, or surfaces that carry no load.
+    """Raise ``SolverError`` for a mesh that is no body, or surfaces that carry no load.
 
     A face belongs to one or two tetrahedra; the triangles of ``pressurised`` and otherwise
     ``loaded`` surfaces are faces of one, seen from outside. Pressure acts on a triangle once.
     """
     if len(mesh.tets) == 0:
-        raise ValueError("mesh: it has no tetrahedra.")
+        raise SolverError("mesh: it has no tetrahedra.")
     faces = np.concatenate([mesh.tets[:, face] for face in FACES])
     _, first, counts = np.unique(
         _key(np.sort(faces, axis=1), mesh), return_index=True, return_counts=True
     )
     if counts.max() > 2:
         place = _place(mesh, faces[first[counts.argmax()]])
-        raise ValueError(
+        raise SolverError(
             f"mesh: {counts.max()} tetrahedra share a face at {place} mm; two can, the others are "
             "given twice or overlap."
         )
@@ -39,29 +40,29 @@ def check_mesh(mesh: Mesh, pressurised: tuple[str, ...], loaded: tuple[str, ...]
     keys, first = np.unique(_key(triangles, mesh), return_index=True)
     if len(keys) < len(triangles):
         twice = np.setdiff1d(np.arange(len(triangles)), first)[0]
-        raise ValueError(
+        raise SolverError(
             f"loads: a triangle of {', '.join(map(repr, pressurised))} at "
             f"{_place(mesh, triangles[twice])} mm is pressurised twice."
         )
 
 
 def _check_surface(mesh: Mesh, surface: str, outer: NDArray[np.int64]) -> None:
-    """Raise ``ValueError`` unless a surface is made of ``outer`` faces, given by their keys."""
+    """Raise ``SolverError`` unless a surface is made of ``outer`` faces, given by their keys."""
     triangles = mesh.triangles(surface)
     if len(triangles) == 0:
-        raise ValueError(f"loads: the surface {surface!r} has no triangles.")
+        raise SolverError(f"loads: the surface {surface!r} has no triangles.")
     wrong = ~np.isin(_key(triangles, mesh), outer)
     if wrong.any():
         bad = triangles[wrong][0]
         inwards = np.isin(_key(bad[None, [0, 2, 1]], mesh), outer).all()
         what = "faces into the body" if inwards else "is no outer face of a tetrahedron"
-        raise ValueError(
+        raise SolverError(
             f"loads: a triangle of the surface {surface!r} at {_place(mesh, bad)} mm {what}."
         )
     askew = ~np.isin(_edges(triangles, TRIANGLE_EDGES, mesh), _edges(mesh.tets, EDGES, mesh))
     if askew.any():
         bad = triangles[askew.reshape(-1, 3).any(axis=1)][0]
-        raise ValueError(
+        raise SolverError(
             f"loads: a triangle of the surface {surface!r} at {_place(mesh, bad)} mm has other "
             "mid-nodes than its tetrahedron."
         )

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from solver.arrays import Integers, Reals
+from solver.errors import SolverError
 from solver.mesh.elements import TETRAHEDRON_EDGES
 
 
@@ -25,7 +26,7 @@ class Mesh:
     - ``surfaces``: name -> (k, 6) node numbers of triangles in Gmsh's order (three vertices, then
       the mid-nodes of (0, 1) (1, 2) (2, 0)); normals point out of the solid.
 
-    The arrays are read-only views of what was given. Raises ``ValueError`` when a shape is wrong
+    The arrays are read-only views of what was given. Raises ``SolverError`` when a shape is wrong
     or a node number is out of range.
     """
 
@@ -36,7 +37,7 @@ class Mesh:
     def __post_init__(self) -> None:
         nodes = _table("nodes", self.nodes, 3, np.float64)
         if not np.isfinite(nodes).all():
-            raise ValueError("mesh: nodes must be finite numbers in mm, found NaN or infinity.")
+            raise SolverError("mesh: nodes must be finite numbers in mm, found NaN or infinity.")
         surfaces = {
             name: _table(f"surface {name!r}", triangles, 6, np.int32)
             for name, triangles in self.surfaces.items()
@@ -72,30 +73,30 @@ class Mesh:
         return float(np.linalg.norm(a - b, axis=2).mean()) if len(self.tets) else 0.0
 
     def triangles(self, *names: str) -> Integers:
-        """All six-node triangles of the named surfaces, (k, 6); ``ValueError`` if unknown."""
+        """All six-node triangles of the named surfaces, (k, 6); ``SolverError`` if unknown."""
         for name in names:
             if name not in self.surfaces:
                 known = ", ".join(sorted(self.surfaces)) or "none"
-                raise ValueError(f"mesh: no surface is called {name!r}; known surfaces: {known}.")
+                raise SolverError(f"mesh: no surface is called {name!r}; known surfaces: {known}.")
         parts = [self.surfaces[name] for name in names]
         return np.concatenate([np.empty((0, 6), np.int32), *parts])
 
     def surface_nodes(self, *names: str) -> Integers:
-        """Sorted unique node numbers of the named surfaces; ``ValueError`` if one is unknown."""
+        """Sorted unique node numbers of the named surfaces; ``SolverError`` if one is unknown."""
         return np.unique(self.triangles(*names))
 
 
 def _table(name: str, values: ArrayLike, width: int, dtype: DTypeLike) -> NDArray[Any]:
     array = np.ascontiguousarray(values, dtype=dtype).view()
     if array.ndim != 2 or array.shape[1] != width:
-        raise ValueError(f"mesh: {name} must have the shape (n, {width}), got {array.shape}.")
+        raise SolverError(f"mesh: {name} must have the shape (n, {width}), got {array.shape}.")
     array.flags.writeable = False
     return array
 
 
 def _check_range(name: str, table: Integers, number_of_nodes: int) -> None:
     if table.size and not 0 <= table.min() <= table.max() < number_of_nodes:
-        raise ValueError(
+        raise SolverError(
             f"mesh: {name} names node {table.max() if table.min() >= 0 else table.min()}, "
             f"but the nodes are numbered 0 to {number_of_nodes - 1}."
         )

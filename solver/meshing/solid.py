@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from solver.arrays import Reals
-from solver.errors import MeshingError
+from solver.errors import MeshingError, SolverError
 from solver.mesh.elements import TETRAHEDRON_EDGES
 from solver.mesh.mesh import Mesh
 from solver.mesh.mid_nodes import SMALLEST_RATIO, jacobian_ratios, relaxed
@@ -50,12 +50,12 @@ class MeshOptions:
 
     def __post_init__(self) -> None:
         if not 0 < self.smallest_size <= self.size < np.inf:
-            raise ValueError(
+            raise SolverError(
                 f"mesh: size = {self.size:g} mm must be finite and at least smallest_size = "
                 f"{self.smallest_size:g} mm, which must be above 0."
             )
         if not 0 <= self.elements_per_circle <= 100:
-            raise ValueError(
+            raise SolverError(
                 f"mesh: elements_per_circle = {self.elements_per_circle:g} must lie between 0 "
                 "and 100."
             )
@@ -74,11 +74,11 @@ def mesh_solid(
 
     Raises:
         MeshingError: no mesh, none in time, or one whose worst element is all but flat.
-        ValueError: the number of names is not the number of faces, or ``seconds`` is not above 0.
+        SolverError: the number of names is not the number of faces, or ``seconds`` is not above 0.
         OSError: ``brep`` cannot be read, or Gmsh cannot be loaded.
     """
     if not 0 < seconds < np.inf:
-        raise ValueError(f"mesh: seconds = {seconds:g} must be finite and above 0.")
+        raise SolverError(f"mesh: seconds = {seconds:g} must be finite and above 0.")
     content = brep if isinstance(brep, bytes) else brep.read_bytes()
     arrays = _from_gmsh(content, len(face_names), options or MeshOptions(), seconds)
     tets = arrays["tets"]
@@ -113,7 +113,7 @@ def _accepted(answer: Message, faces: int) -> Mapping[str, NDArray[Any]]:
     if "failed" in answer.values:
         raise OSError(answer.values["failed"])
     if "faces" in answer.values:
-        raise ValueError(f"mesh: {faces} names for {answer.values['faces']} faces of the solid.")
+        raise SolverError(f"mesh: {faces} names for {answer.values['faces']} faces of the solid.")
     if "refused" in answer.values:
         raise MeshingError(answer.values["refused"])
     return answer.arrays

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from solver.arrays import Reals
 from solver.assembly.assembly import Equilibrium
 from solver.assembly.state import State
+from solver.errors import SolverError
 from solver.nonlinear.bordering import Station, corrected, station
 from solver.nonlinear.newton import FIRST_STEP, Listener, Newton, SolverOptions
 from solver.problem.problem import Problem
@@ -72,12 +73,12 @@ def trace(
     path ends where that is passed, where ``until`` says so of a point, after ``steps`` steps, or
     where no step succeeds. The first step is ``options.first_step`` of the load, or a tenth; none
     moves the nodes by more than ``longest_step`` body diagonals (root mean square). Raises
-    ``ValueError`` for a pressure that is not finite, and for no steps or steps of no length.
+    ``SolverError`` for a pressure that is not finite, and for no steps or steps of no length.
     """
     if not np.isfinite(pressure):
-        raise ValueError(f"pressure must be a finite number of MPa, got {pressure}.")
+        raise SolverError(f"pressure must be a finite number of MPa, got {pressure}.")
     if not (0 < longest_step < np.inf and steps >= 1):
-        raise ValueError(
+        raise SolverError(
             f"trace: longest_step = {longest_step} must be a number above 0 and steps = {steps} "
             "at least 1."
         )

@@ -12,6 +12,7 @@ import numpy as np
 
 from solver.arrays import Reals
 from solver.assembly.state import State
+from solver.errors import SolverError
 from solver.results.solution import PathPoint
 
 
@@ -45,12 +46,12 @@ class Checkpoint:
 
     @staticmethod
     def load_from(path: Path) -> Checkpoint:
-        """Read what ``save`` wrote; ``ValueError`` if that is not what the file holds."""
+        """Read what ``save`` wrote; ``SolverError`` if that is not what the file holds."""
         try:
             with np.load(path, allow_pickle=False) as file:
                 return _checkpoint({name: file[name] for name in file.files})
         except (KeyError, ValueError, TypeError, EOFError, BadZipFile) as error:
-            raise ValueError(f"checkpoint: {path.name} does not hold one ({error}).") from error
+            raise SolverError(f"checkpoint: {path.name} does not hold one ({error}).") from error
 
     def _arrays(self) -> dict[str, Any]:
         points = np.array([[np.nan if v is None else v for v in astuple(p)] for p in self.points])

@@ -11,6 +11,7 @@ import numpy as np
 
 from solver.arrays import Reals
 from solver.assembly.state import State
+from solver.errors import SolverError
 from solver.nonlinear.checkpoint import Checkpoint
 from solver.nonlinear.newton import FIRST_STEP, Attempt, Effort, Listener, Newton, SolverOptions
 from solver.problem.problem import Problem
@@ -39,10 +40,10 @@ def solve(
     found the checkpoint's state too poor to go on from).
     A load that cannot be reached gives the last good state with ``converged`` False
     and a ``message``, never a diverged state; if a limit point is why, ``limit`` says at what
-    pressure. Raises ``ValueError`` for bad input.
+    pressure. Raises ``SolverError`` for bad input.
     """
     if not np.isfinite(pressure):
-        raise ValueError(f"pressure must be a finite number of MPa, got {pressure}.")
+        raise SolverError(f"pressure must be a finite number of MPa, got {pressure}.")
     start = time.perf_counter()
     loads = _stops(stops, float(pressure))
     newton = Newton(problem, float(pressure), options or SolverOptions(), listener)
@@ -74,7 +75,7 @@ def _stops(pressures: Sequence[float], pressure: float) -> tuple[float, ...]:
     loads = sorted({float(stop) / (pressure or 1.0) for stop in pressures})
     if not all(0 < load <= 1 + 1e-12 for load in loads):
         end = f"the pressure of {pressure:g} MPa" if pressure else "the whole load, 1"
-        raise ValueError(f"stops must lie between 0 and {end}, got {list(pressures)}.")
+        raise SolverError(f"stops must lie between 0 and {end}, got {list(pressures)}.")
     return tuple(load for load in loads if load < 1 - 1e-12)
 
 
@@ -274,7 +275,7 @@ def _report(
 
 
 def _start(newton: Newton, displacement: Reals, pressure: Reals) -> State:
-    """A given state as a start; ``ValueError`` if its shapes do not fit the mesh."""
+    """A given state as a start; ``SolverError`` if its shapes do not fit the mesh."""
     _check_shapes(newton, displacement, pressure)
     state = newton.placed(State(displacement, pressure), 1.0)
     plane = newton.assembly.plane
@@ -288,11 +289,11 @@ def _check_shapes(newton: Newton, displacement: Reals, pressure: Reals) -> None:
         ("hydrostatic pressure", pressure, expected.hydrostatic_pressure),
     ):
         if np.shape(given) != wanted.shape:
-            raise ValueError(
+            raise SolverError(
                 f"initial: {name} must have the shape {wanted.shape}, got {np.shape(given)}."
             )
         if not np.isfinite(given).all():
-            raise ValueError(f"initial: {name} must be finite numbers, found NaN or infinity.")
+            raise SolverError(f"initial: {name} must be finite numbers, found NaN or infinity.")
 
 
 def solution_of(newton: Newton, walk: Walk, seconds: float) -> Solution:

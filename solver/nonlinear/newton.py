@@ -23,6 +23,7 @@ from solver.arrays import Reals
 from solver.assembly.assembly import Assembly, Equilibrium
 from solver.assembly.pressure import enclosed_volume
 from solver.assembly.state import State
+from solver.errors import SolverError
 from solver.linear.scaling import factors, scaled
 from solver.linear.solvers import SingularMatrix, linear_solver
 from solver.nonlinear.checkpoint import Checkpoint
@@ -64,7 +65,7 @@ class SolverOptions:
             if name == "first_step" and value is None:
                 continue
             if value is None or not low < value <= high:
-                raise ValueError(
+                raise SolverError(
                     f"solver: {name} must be above {low} and at most {high}, got {value}."
                 )
 
@@ -157,7 +158,7 @@ class Newton:
 
     def __post_init__(self) -> None:
         if self.pressure and not self.problem.pressurised:
-            raise ValueError(
+            raise SolverError(
                 f"pressure = {self.pressure:g} MPa: the problem has no pressurised surface."
             )
         self.assembly = Assembly(self.problem)
@@ -370,12 +371,12 @@ class Newton:
     def given(self, load: float) -> Reals:
         """Given displacements (n, 3) at a fraction of the load, NaN where free, mm.
 
-        Raises ``ValueError`` if a prescribed motion lets go of something on its way.
+        Raises ``SolverError`` if a prescribed motion lets go of something on its way.
         """
         problem = self.problem
         given = given_displacements(problem.mesh, problem.supports, load, problem.moving_plane)
         if problem.supports.prescribed and (np.isnan(given) == self.held).any():
-            raise ValueError(
+            raise SolverError(
                 f"supports: a prescribed motion is NaN at {100 * load:.4g} % of the load in other "
                 "components than at the whole load."
             )

@@ -17,6 +17,7 @@ from solver.arrays import Reals
 from solver.assembly.assembly import Equilibrium
 from solver.assembly.pressure import enclosed_volume
 from solver.assembly.state import State
+from solver.errors import SolverError
 from solver.nonlinear.bordering import Station, corrected, station
 from solver.nonlinear.load_stepping import Walk, solution_of
 from solver.nonlinear.newton import FIRST_STEP, Listener, Newton, SolverOptions
@@ -36,12 +37,12 @@ def inflate(
     ``Solution.pressure`` is the pressure that takes. Steps are fractions of the change of volume;
     the path has a point at each of the volumes ``stops`` on the way. Its points need not be stable
     while the pressure is held: each says so. For the volume of a symmetric part see
-    ``enclosed_volume``. Raises ``ValueError`` for a problem with other loads than
+    ``enclosed_volume``. Raises ``SolverError`` for a problem with other loads than
     pressure, and for volumes out of order.
     """
     start = time.perf_counter()
     if problem.loads or problem.supports.prescribed or not problem.pressurised:
-        raise ValueError("inflate: the problem's only load must be the pressure in a cavity.")
+        raise SolverError("inflate: the problem's only load must be the pressure in a cavity.")
     newton = Newton(problem, 1.0, options or SolverOptions(), listener)
     leg = _Leg(station(newton, State.zero(problem), 0.0), _volume(newton, State.zero(problem)))
     path: tuple[PathPoint, ...] = (newton.point(leg.reached.state, 0.0, 0, True),)
@@ -126,7 +127,7 @@ def _targets(rest: float, volume: float, stops: Sequence[float]) -> list[float]:
     targets = sorted({float(v) for v in (*stops, volume)}, reverse=down)
     finite = all(np.isfinite(targets)) and all(target > 0 for target in targets)
     if not finite or targets[-1] != volume or (targets[0] - rest) * (volume - rest) < 0:
-        raise ValueError(
+        raise SolverError(
             f"inflate: volumes must be positive and lie between the {rest:.6g} mm³ at rest and "
             f"the last one, got {list(stops)} and {volume:g} mm³."
         )

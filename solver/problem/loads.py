@@ -10,6 +10,7 @@ from typing import TypeAlias
 import numpy as np
 
 from solver.arrays import Integers, Reals
+from solver.errors import SolverError
 from solver.mesh.elements import Rule, tetrahedron_rule, triangle_rule
 from solver.mesh.mesh import Mesh
 
@@ -57,7 +58,7 @@ Load: TypeAlias = Traction | BodyForce | PointForce | Couple
 def nodal_forces(mesh: Mesh, loads: Sequence[Load]) -> Reals:
     """Forces (n, 3) in N that do the work of all ``loads`` but the couples.
 
-    Raises ``ValueError`` for an unknown surface, a point force on no node, or a value that is not
+    Raises ``SolverError`` for an unknown surface, a point force on no node, or a value that is not
     a finite vector.
     """
     forces = np.zeros(mesh.nodes.shape)
@@ -68,12 +69,12 @@ def nodal_forces(mesh: Mesh, loads: Sequence[Load]) -> Reals:
 
 
 def check_loads(loads: Sequence[Load], moving_plane: str | None) -> None:
-    """Raise ``ValueError`` unless couples, and only they, go with a moving plane."""
+    """Raise ``SolverError`` unless couples, and only they, go with a moving plane."""
     couples = [isinstance(load, Couple) for load in loads]
     if moving_plane is None and any(couples):
-        raise ValueError("loads: a couple needs a moving plane to act on.")
+        raise SolverError("loads: a couple needs a moving plane to act on.")
     if moving_plane is not None and not all(couples):
-        raise ValueError("loads: a cell with a moving plane takes pressure only, besides couples.")
+        raise SolverError("loads: a cell with a moving plane takes pressure only, besides couples.")
 
 
 def loaded_surfaces(loads: Sequence[Load]) -> tuple[str, ...]:
@@ -82,10 +83,10 @@ def loaded_surfaces(loads: Sequence[Load]) -> tuple[str, ...]:
 
 
 def couple(loads: Sequence[Load]) -> float:
-    """Sum of the couples on the moving plane, N mm; ``ValueError`` if it is not finite."""
+    """Sum of the couples on the moving plane, N mm; ``SolverError`` if it is not finite."""
     moment = math.fsum(load.moment for load in loads if isinstance(load, Couple))
     if not math.isfinite(moment):
-        raise ValueError(f"load: a couple's moment must be a finite number of N mm, got {moment}.")
+        raise SolverError(f"load: a couple's moment must be a finite number of N mm, got {moment}.")
     return moment
 
 
@@ -118,7 +119,7 @@ def _on_node(mesh: Mesh, load: PointForce) -> Reals:
     distances = np.linalg.norm(away, axis=1)
     nearest = int(distances.argmin())
     if distances[nearest] > 1e-6 * mesh.size:
-        raise ValueError(
+        raise SolverError(
             f"point force: no node lies at {load.position} mm; the nearest is "
             f"{distances[nearest]:.3g} mm away."
         )
@@ -131,7 +132,7 @@ def _values(field: Field, positions: Reals) -> Reals:
     """Vectors (k, 3) of a field at positions (k, 3)."""
     given = np.asarray(field(positions) if callable(field) else field, float)
     if given.shape not in ((3,), positions.shape):
-        raise ValueError(f"load: needs vectors of the shape {positions.shape}, got {given.shape}.")
+        raise SolverError(f"load: needs vectors of the shape {positions.shape}, got {given.shape}.")
     if not np.isfinite(given).all():
-        raise ValueError("load: every component must be a finite number.")
+        raise SolverError("load: every component must be a finite number.")
     return np.broadcast_to(given, positions.shape)

@@ -2,50 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
-from types import MappingProxyType
-from typing import TYPE_CHECKING, TypeAlias
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from solver.arrays import Reals
+from solver.errors import SolverError
 from solver.material.ogden import Ogden
 from solver.mesh.mesh import Mesh
+from solver.problem.supports import Supports
 
 if TYPE_CHECKING:
     from solver.problem.loads import Load
-
-Placement: TypeAlias = Callable[[Reals, float], Reals]
-"""(reference positions (k, 3) in mm, fraction of the load) -> displacements (k, 3) in mm.
-
-NaN where a component is free; zero at no load.
-"""
-
-
-@dataclass(frozen=True)
-class Supports:
-    """Surfaces that are held or led.
-
-    - ``clamped``: surfaces with zero displacement.
-    - ``symmetry``: surface -> axis (0, 1, 2) whose displacement is zero on it.
-    - ``prescribed``: surface -> ``Placement``, where it is at each fraction of the load; it
-      overrules the others on shared nodes.
-    """
-
-    clamped: tuple[str, ...] = ()
-    symmetry: Mapping[str, int] = field(default_factory=dict)
-    prescribed: Mapping[str, Placement] = field(default_factory=dict)
-
-    def __post_init__(self) -> None:
-        for surface, axis in self.symmetry.items():
-            if axis not in (0, 1, 2):
-                raise ValueError(
-                    f"supports: the symmetry axis of {surface!r} must be 0, 1 or 2, got {axis}."
-                )
-        object.__setattr__(self, "clamped", tuple(self.clamped))
-        object.__setattr__(self, "symmetry", MappingProxyType(dict(self.symmetry)))
-        object.__setattr__(self, "prescribed", MappingProxyType(dict(self.prescribed)))
 
 
 @dataclass(frozen=True)
@@ -62,7 +30,7 @@ class SlenderAxis:
         object.__setattr__(self, "stations", tuple(float(x) for x in self.stations))
         finite = bool(np.isfinite(self.stations).all())
         if len(self.stations) < 2 or not finite or not (np.diff(self.stations) > 0).all():
-            raise ValueError(
+            raise SolverError(
                 "axis: stations must be at least two positions in mm in ascending order, "
                 f"got {self.stations}."
             )
@@ -74,7 +42,7 @@ class Contact:
 
     The plane is normal to ``axis`` (0, 1, 2) at ``position`` (mm), or the problem's moving plane if
     ``axis`` is None. A contact pressure as high as the material's shear modulus pushes the surface
-    through it by ``penetration`` (mm), others in proportion. Raises ``ValueError`` for other axes
+    through it by ``penetration`` (mm), others in proportion. Raises ``SolverError`` for other axes
     and penetrations.
     """
 
@@ -85,9 +53,9 @@ class Contact:
 
     def __post_init__(self) -> None:
         if self.axis not in (None, 0, 1, 2):
-            raise ValueError(f"contacts: the plane's axis must be 0, 1 or 2, got {self.axis}.")
+            raise SolverError(f"contacts: the plane's axis must be 0, 1 or 2, got {self.axis}.")
         if not 0 < self.penetration < np.inf or not np.isfinite(self.position):
-            raise ValueError(
+            raise SolverError(
                 f"contacts: penetration = {self.penetration:g} mm must be above 0 and position = "
                 f"{self.position:g} mm finite."
             )
@@ -106,7 +74,7 @@ class Problem:
     ``contacts`` keep surfaces from crossing planes of symmetry (``solver.assembly.contact``).
     Stress nearer than ``sharp_edge_radius`` (mm) to an edge where the ideal body's has no finite
     value is left out of peaks (``solver.results.sharp_edges``).
-    Raises ``ValueError`` when a surface is unknown, the moving one is not plane, or the supports
+    Raises ``SolverError`` when a surface is unknown, the moving one is not plane, or the supports
     leave a rigid motion free.
     """
 
@@ -123,14 +91,15 @@ class Problem:
     def __post_init__(self) -> None:
         from solver.mesh.checks import check_mesh
         from solver.problem.loads import check_loads, loaded_surfaces
-        from solver.problem.supports import check_pressure, check_supports, fixed_displacements
+        from solver.problem.support_checks import check_pressure, check_supports
+        from solver.problem.supports import fixed_displacements
 
         object.__setattr__(self, "pressurised", tuple(self.pressurised))
         object.__setattr__(self, "loads", tuple(self.loads))
         check_loads(self.loads, self.moving_plane)
         check_mesh(self.mesh, self.pressurised, loaded_surfaces(self.loads))
         if not 0 <= self.sharp_edge_radius < np.inf:
-            raise ValueError(
+            raise SolverError(
                 f"sharp_edge_radius = {self.sharp_edge_radius} mm must be a number of at least 0."
             )
         object.__setattr__(self, "contacts", tuple(self.contacts))
@@ -141,11 +110,11 @@ class Problem:
 
 
 def _check_contacts(problem: Problem) -> None:
-    """Raise ``ValueError`` for contacts with unknown surfaces or with no moving plane."""
+    """Raise ``SolverError`` for contacts with unknown surfaces or with no moving plane."""
     for contact in problem.contacts:
         problem.mesh.triangles(contact.surface)
         if contact.axis is None and problem.moving_plane is None:
-            raise ValueError(
+            raise SolverError(
                 f"contacts: the surface {contact.surface!r} needs an axis, as the problem has no "
                 "moving plane."
             )

@@ -26,7 +26,7 @@ def reaction(
 
     Lever arms are those of the deformed body. Nodes that are held by two supports count in full,
     so a symmetry plane next to the surface adds its own forces, normal to itself. Raises
-    ``ValueError`` for an unknown surface.
+    ``SolverError`` for an unknown surface.
     """
     mesh = solution.problem.mesh
     nodes = mesh.surface_nodes(surface)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 
@@ -12,7 +11,6 @@ from solver.assembly.pressure import enclosed_volume
 from solver.assembly.state import State
 from solver.mesh.mesh import Mesh
 from solver.problem.problem import Problem
-from solver.results.stress import nodal_pressure, nodal_von_mises
 
 
 @dataclass(frozen=True)
@@ -89,18 +87,3 @@ def cavity_volume(mesh: Mesh, displacement: Reals, surfaces: tuple[str, ...]) ->
     For a half model this is the half cavity's volume. See ``enclosed_volume``.
     """
     return enclosed_volume(mesh, displacement, surfaces)
-
-
-def write_vtu(path: Path, solution: Solution) -> None:
-    """Write a ParaView file: the undeformed mesh with displacement, von Mises and pressure."""
-    import meshio
-
-    mesh = solution.problem.mesh
-    # VTK's last two mid-edge nodes are those of (1, 3) and (2, 3): Gmsh's the other way round
-    cells = mesh.tets[:, [0, 1, 2, 3, 4, 5, 6, 7, 9, 8]]
-    fields = {
-        "displacement_mm": solution.displacement,
-        "von_mises_mpa": nodal_von_mises(solution),
-        "hydrostatic_pressure_mpa": nodal_pressure(solution.problem, solution.state),
-    }
-    meshio.Mesh(mesh.nodes, [("tetra10", cells)], point_data=fields).write(path)

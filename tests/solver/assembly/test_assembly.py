@@ -10,9 +10,9 @@ import pytest
 
 from solver import Mesh, Ogden, Problem, Supports
 from solver.assembly.assembly import Assembly, solid
+from solver.assembly.colouring import chunks
 from solver.assembly.state import State
 from solver.kernels import kernels as k
-from solver.linear.sparsity import chunks
 
 BoxMesh = Callable[..., Mesh]
 THREE_PLANES = Supports(symmetry={"x0": 0, "y0": 1, "z0": 2})

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from solver import Mesh, Ogden, Problem, Supports, Traction, solve
-from solver.linear.sparsity import connected_parts
+from solver.mesh.connectivity import connected_parts
 
 Meshes = Callable[..., Mesh]
 CLAMPED = Supports(clamped=("x0",))

@@ -1,0 +1,40 @@
+"""Which nodes hang together."""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from solver.arrays import Integers
+
+
+@njit(cache=True)
+def connected_parts(cells: Integers, size: int) -> Integers:
+    """Number of the part that each of ``size`` nodes belongs to, -1 for nodes of no cell (n,).
+
+    Cells (e, m) that share a node belong to one part.
+    """
+    parent = np.arange(size)
+    for cell in cells:
+        root = _root(parent, cell[0])
+        for node in cell[1:]:
+            parent[_root(parent, node)] = root
+    parts = np.full(size, -1, np.int32)
+    count = 0
+    for node in np.unique(cells):
+        root = _root(parent, node)
+        if parts[root] < 0:
+            parts[root] = count
+            count += 1
+        parts[node] = parts[root]
+    return parts
+
+
+@njit(cache=True)
+def _root(parent: NDArray[np.int64], node: int) -> int:
+    """Where the parents of a node end; the way there is halved for the next time."""
+    while parent[node] != node:
+        parent[node] = parent[parent[node]]
+        node = parent[node]
+    return node

@@ -1,0 +1,123 @@
+"""Supports that contradict themselves or leave something free are refused."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from solver.arrays import Reals
+from solver.errors import SolverError
+from solver.mesh.connectivity import connected_parts
+from solver.mesh.elements import tetrahedron_rule
+from solver.mesh.mesh import Mesh
+from solver.problem.supports import Supports, fixed_displacements, prescribed_motion
+
+RIGID_MOTIONS = (
+    "translation along x",
+    "translation along y",
+    "translation along z",
+    "rotation about x",
+    "rotation about y",
+    "rotation about z",
+)
+
+
+def check_supports(mesh: Mesh, supports: Supports, moving_plane: str | None = None) -> None:
+    """Raise ``SolverError`` where supports contradict themselves or leave a rigid motion free."""
+    for surface in supports.prescribed:
+        _check_motion(mesh, supports, surface)
+    if moving_plane is not None:
+        _check_plane(mesh, supports, moving_plane)
+    fixed = fixed_displacements(mesh, supports, moving_plane)
+    parts = connected_parts(mesh.tets, len(mesh.nodes))
+    for number in range(parts.max() + 1):
+        nodes = np.flatnonzero(parts == number)
+        loose = free_motions(mesh.nodes[nodes], fixed[nodes])
+        if loose:
+            middle = ", ".join(f"{x:.4g}" for x in mesh.nodes[nodes].mean(axis=0))
+            which = f"part of the body around ({middle}) mm" if parts.max() else "body"
+            raise SolverError(
+                f"supports: they leave the {which} free to move in {len(loose)} "
+                f"way{'s' * (len(loose) > 1)} ({', '.join(loose)})."
+            )
+
+
+def check_pressure(mesh: Mesh, fixed: NDArray[np.bool_]) -> None:
+    """Raise ``SolverError`` if no free displacement can change the volume of the body.
+
+    The hydrostatic pressure of an incompressible body is then known but for a constant. The
+    derivative of the volume vanishes at inner nodes: one on the surface must be free.
+    """
+    rule = tetrahedron_rule()
+    tangents = np.einsum("qad,eai->eqdi", rule.gradients, mesh.nodes[mesh.tets])
+    cofactors = np.stack(
+        [np.cross(tangents[:, :, (d + 1) % 3], tangents[:, :, (d + 2) % 3]) for d in range(3)],
+        axis=2,
+    )
+    parts = np.einsum("q,qad,eqdi->eai", rule.weights, rule.gradients, cofactors)
+    derivative = np.zeros(mesh.nodes.shape)
+    np.add.at(derivative, mesh.tets, parts)
+    if (np.abs(derivative) * ~fixed).max() <= LOOSE * np.abs(derivative).max():
+        raise SolverError(
+            "supports: they prescribe the whole surface of an incompressible body, which leaves "
+            "its pressure undetermined; free some of it or give the material a bulk modulus."
+        )
+
+
+def free_motions(nodes: Reals, fixed: NDArray[np.bool_]) -> tuple[str, ...]:
+    """Names of independent rigid motions of nodes (k, 3) that ``fixed`` (k, 3) does not hinder.
+
+    The rotations are those about axes through the middle of the body; a body that may turn about
+    one point elsewhere is free in as many ways.
+    """
+    node, axis = np.nonzero(fixed)
+    positions = (nodes - nodes.mean(axis=0)) / np.linalg.norm(np.ptp(nodes, axis=0))
+    rotations = [np.cross(about, positions) for about in np.eye(3)]
+    motions = np.stack([*np.broadcast_to(np.eye(3)[:, None], (3, *positions.shape)), *rotations])
+    held = motions[:, node, axis]  # (6, number of held displacements)
+    values, vectors = np.linalg.eigh(held @ held.T)
+    return tuple(
+        RIGID_MOTIONS[k] for k in _leading(vectors[:, values <= LOOSE * max(values[-1], 1)])
+    )
+
+
+LOOSE = 1e-12
+
+
+def _leading(basis: Reals) -> list[int]:
+    """The k rows of a basis (m, k) that span the most: greedily, each after the ones before."""
+    rest, chosen = basis.copy(), []
+    for _ in range(basis.shape[1]):
+        row = int(np.linalg.norm(rest, axis=1).argmax())
+        direction = rest[row] / np.linalg.norm(rest[row])
+        rest = rest - np.outer(rest @ direction, direction)
+        chosen.append(row)
+    return sorted(chosen)
+
+
+def _check_motion(mesh: Mesh, supports: Supports, surface: str) -> None:
+    start = prescribed_motion(mesh, supports, surface, 0.0)
+    if (np.isnan(start) != np.isnan(prescribed_motion(mesh, supports, surface, 1.0))).any():
+        raise SolverError(
+            f"supports: the motion of {surface!r} must leave the same components free (NaN) "
+            "at every load."
+        )
+    if np.nanmax(np.abs(start), initial=0.0) > 1e-9 * mesh.size:
+        raise SolverError(
+            f"supports: the motion of {surface!r} must be zero at no load, got "
+            f"{np.nanmax(np.abs(start)):.3g} mm."
+        )
+
+
+def _check_plane(mesh: Mesh, supports: Supports, moving_plane: str) -> None:
+    if supports.clamped or supports.prescribed or moving_plane in supports.symmetry:
+        raise SolverError(
+            f"supports: the moving plane {moving_plane!r} goes with planes of symmetry other "
+            "than itself, not with clamps or prescribed motions."
+        )
+    x = mesh.nodes[mesh.surface_nodes(moving_plane), 0]
+    if len(x) == 0 or np.ptp(x) > 1e-6 * mesh.size:
+        raise SolverError(
+            f"supports: the moving plane {moving_plane!r} must be a plane normal to x; "
+            f"its nodes spread over {np.ptp(x) if len(x) else 0:.3g} mm along x."
+        )

@@ -1,0 +1,23 @@
+"""A solution as a file for ParaView."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from solver.results.solution import Solution
+from solver.results.stress import nodal_pressure, nodal_von_mises
+
+
+def write_vtu(path: Path, solution: Solution) -> None:
+    """Write a ParaView file: the undeformed mesh with displacement, von Mises and pressure."""
+    import meshio
+
+    mesh = solution.problem.mesh
+    # VTK's last two mid-edge nodes are those of (1, 3) and (2, 3): Gmsh's the other way round
+    cells = mesh.tets[:, [0, 1, 2, 3, 4, 5, 6, 7, 9, 8]]
+    fields = {
+        "displacement_mm": solution.displacement,
+        "von_mises_mpa": nodal_von_mises(solution),
+        "hydrostatic_pressure_mpa": nodal_pressure(solution.problem, solution.state),
+    }
+    meshio.Mesh(mesh.nodes, [("tetra10", cells)], point_data=fields).write(path)
