@@ -11,10 +11,13 @@ from solver.arrays import Integers, Reals
 from solver.assembly.colouring import chunks
 from solver.assembly.contact import Touches
 from solver.assembly.moving_plane import MovingPlane
-from solver.assembly.pressure import Skin, assemble_pressure, assemble_volume, skin
+from solver.assembly.pressure import skin
 from solver.assembly.state import State
 from solver.errors import SolverError
-from solver.kernels import kernels
+from solver.kernels.assembly import Places, assemble, assemble_plane, total_energy
+from solver.kernels.element import Solid
+from solver.kernels.pressure import Skin, assemble_pressure, assemble_volume
+from solver.kernels.stress import extrapolated_stress
 from solver.linear.sparsity import Pattern, upper_pattern
 from solver.mesh.elements import tetrahedron_rule
 from solver.mesh.mesh import Mesh
@@ -67,7 +70,7 @@ class Assembly:
         plane_dofs = self._with_plane(dofs[at_plane])
         self.pattern = upper_pattern(_joined(dofs, at_plane, plane_dofs), self.numbering.size)
         order = chunks(mesh, np.flatnonzero(~at_plane))
-        self._places = kernels.Places(*order, dofs, self.pattern.entries(dofs))
+        self._places = Places(*order, dofs, self.pattern.entries(dofs))
         self._at_plane = np.flatnonzero(at_plane).astype(np.int32)
         self._plane_dofs, self._plane_entries = plane_dofs, self.pattern.entries(plane_dofs)
         self._solid = solid(problem)
@@ -86,7 +89,7 @@ class Assembly:
         values = np.zeros(len(self.pattern.indices) if tangent else 0)
         jacobians = np.empty(len(self.problem.mesh.tets))
         displacement = np.ascontiguousarray(state.displacement)
-        kernels.assemble(
+        assemble(
             self._solid, self._places, displacement, state.hydrostatic_pressure,
             self._geometric(state), tangent, residual, values, jacobians,
         )  # fmt: skip
@@ -94,7 +97,7 @@ class Assembly:
             assemble_pressure(self._skin, displacement, pressure, tangent, force, values)
         else:
             heights = self.plane.heights(state)
-            kernels.assemble_plane(
+            assemble_plane(
                 self._solid, self._at_plane, heights, state.plane[0], self._plane_dofs,
                 self._plane_entries, displacement, state.hydrostatic_pressure,
                 tangent, residual, values, jacobians,
@@ -112,7 +115,7 @@ class Assembly:
         For problems without a moving plane.
         """
         stress = np.empty((len(self.problem.mesh.tets), len(self._solid.weights), 6))
-        kernels.extrapolated_stress(
+        extrapolated_stress(
             self._solid, np.ascontiguousarray(state.displacement), state.hydrostatic_pressure,
             np.ascontiguousarray(increment.displacement), increment.hydrostatic_pressure, stress,
         )  # fmt: skip
@@ -120,7 +123,7 @@ class Assembly:
 
     def energy(self, state: State) -> float:
         """Pi of the solid and its contacts, N mm: its gradient is the residual at zero pressure."""
-        solid = kernels.total_energy(self._solid, state.displacement, state.hydrostatic_pressure)
+        solid = total_energy(self._solid, state.displacement, state.hydrostatic_pressure)
         return float(solid[0]) + self.touches.energy(state)
 
     def _geometric(self, state: State) -> Reals:
@@ -149,10 +152,10 @@ def unbalanced_forces(problem: Problem, state: State, pressure: float, load: flo
     mesh = problem.mesh
     everything = number_unknowns(mesh, NO_SUPPORTS)
     dofs = everything.of_tets(mesh)
-    places = kernels.Places(*chunks(mesh), dofs, np.empty((len(dofs), 0), np.int32))
+    places = Places(*chunks(mesh), dofs, np.empty((len(dofs), 0), np.int32))
     residual, force, nothing = np.zeros(everything.size), np.zeros(everything.size), np.zeros(0)
     displacement = np.ascontiguousarray(state.displacement)
-    kernels.assemble(
+    assemble(
         solid(problem), places, displacement, state.hydrostatic_pressure,
         np.empty((len(mesh.tets), 0, 6)), False, residual, nothing, np.empty(len(mesh.tets)),
     )  # fmt: skip
@@ -181,17 +184,16 @@ def _joined(dofs: Integers, at_plane: NDArray[np.bool_], plane_dofs: Integers) -
     return joined
 
 
-def solid(problem: Problem) -> kernels.Solid:
+def solid(problem: Problem) -> Solid:
     """Mesh, material and quadrature of a problem as the kernels see them."""
     mesh, material, rule = problem.mesh, problem.material, tetrahedron_rule()
-    mu, alpha = material.coefficients
-    return kernels.Solid(
+    constants = material.constants
+    return Solid(
         nodes=mesh.nodes,
         tets=mesh.tets,
         tet_vertices=mesh.tet_vertices,
-        mu=mu,
-        alpha=alpha,
-        higher=material.higher_coefficients,
+        law=constants.number,
+        constants=constants.values,
         compliance=material.compliance,
         logarithmic=material.volumetric == "logarithmic",
         gradients=rule.gradients,

@@ -25,25 +25,20 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from solver.arrays import Integers, Reals
 from solver.assembly.moving_plane import MovingPlane
 from solver.assembly.state import State
 from solver.errors import SolverError
-from solver.kernels.kernels import mirror_upper, scatter, to_plane_unknowns
+from solver.kernels.contact import Face, Plane, assemble_contact, face_energy
 from solver.linear.sparsity import Pattern, widened
 from solver.mesh.elements import triangle_rule
 from solver.mesh.mesh import Mesh
 from solver.mesh.proximity import OPPOSING, facet_normals
 from solver.problem.problem import Contact, Problem
 from solver.problem.unknowns import Numbering
-
-UNKNOWNS = 20
-"""Of a triangle: three for each of six nodes, then tilt and shift of the moving plane."""
 
 SMOOTHING = 0.1
 """s over the penetration that a contact asks for."""
@@ -53,137 +48,6 @@ SOFTENING = 30.0
 
 INITIAL_CROSSING = 1e-6
 """How far a surface may lie beyond its plane at first, in body diagonals: rounding."""
-
-
-class Face(NamedTuple):
-    """Triangles that may touch a plane, as the kernels see them.
-
-    ``nodes`` (n, 3), ``triangles`` (k, 6), quadratic ``shapes`` (q, 6), reference ``areas`` (k, q)
-    that the quadrature points stand for, ``dofs`` (k, 20), ``stiffness`` (MPa/mm) and
-    ``smoothing`` (mm).
-    """
-
-    nodes: Reals
-    triangles: Integers
-    shapes: Reals
-    areas: Reals
-    dofs: Integers
-    stiffness: float
-    smoothing: float
-
-
-class Plane(NamedTuple):
-    """g = n . x + c with its derivatives: by tilt (``turned``), twice by tilt, by shift, by both.
-
-    Each of the first three is (4,): n and c.
-    """
-
-    equation: Reals
-    turned: Reals
-    turned_twice: Reals
-    shifted: float
-    shifted_turned: float
-
-
-@njit(cache=True, error_model="numpy")
-def contact_law(gap: float, stiffness: float, smoothing: float) -> tuple[float, float, float]:
-    """psi (N/mm), pressure -dpsi/dg (MPa) and its slope d2psi/dg2 (MPa/mm) at a signed gap, mm."""
-    depth = -gap
-    if depth <= 0.0:
-        return 0.0, 0.0, 0.0
-    if depth < smoothing:
-        slope = stiffness * depth / smoothing
-        return slope * depth * depth / 6.0, slope * depth / 2.0, slope
-    energy = stiffness * (depth * (depth - smoothing) / 2.0 + smoothing * smoothing / 6.0)
-    return energy, stiffness * (depth - smoothing / 2.0), stiffness
-
-
-@njit(cache=True, error_model="numpy")
-def face_energy(face: Face, plane: Plane, displacement: Reals) -> float:
-    """Contact energy of a face, N mm."""
-    energy = 0.0
-    for triangle in range(face.triangles.shape[0]):
-        nodes = face.triangles[triangle]
-        x = face.nodes[nodes] + displacement[nodes]
-        for point in range(face.shapes.shape[0]):
-            gap = plane.equation[3]
-            for a in range(6):
-                for i in range(3):
-                    gap += face.shapes[point, a] * plane.equation[i] * x[a, i]
-            energy += (
-                face.areas[triangle, point] * contact_law(gap, face.stiffness, face.smoothing)[0]
-            )
-    return energy
-
-
-@njit(cache=True, error_model="numpy")
-def triangle_response(
-    face: Face, triangle: int, plane: Plane, x: Reals, r: Reals, k: Reals
-) -> bool:
-    """Residual r (20,) and upper half of the tangent k (20, 20) of one triangle; False if zero.
-
-    ``x`` (6, 3) deformed nodes, mm. Unknowns are positions of nodes, tilt and shift.
-    """
-    gradient = np.empty(UNKNOWNS)
-    touches = False
-    for point in range(face.shapes.shape[0]):
-        gap, turned, curved = plane.equation[3], plane.turned[3], plane.turned_twice[3]
-        for a in range(6):
-            for i in range(3):
-                place = face.shapes[point, a] * x[a, i]
-                gap += place * plane.equation[i]
-                turned += place * plane.turned[i]
-                curved += place * plane.turned_twice[i]
-                gradient[3 * a + i] = face.shapes[point, a] * plane.equation[i]
-        gradient[18], gradient[19] = turned, plane.shifted
-        _, pressure, slope = contact_law(gap, face.stiffness, face.smoothing)
-        if pressure == 0.0:
-            continue
-        touches = True
-        area = face.areas[triangle, point]
-        for i in range(UNKNOWNS):
-            r[i] -= area * pressure * gradient[i]
-            for j in range(i, UNKNOWNS):
-                k[i, j] += area * slope * gradient[i] * gradient[j]
-        for a in range(6):
-            for i in range(3):
-                k[3 * a + i, 18] -= area * pressure * face.shapes[point, a] * plane.turned[i]
-        k[18, 18] -= area * pressure * curved
-        k[18, 19] -= area * pressure * plane.shifted_turned
-    return touches
-
-
-@njit(cache=True, error_model="numpy")
-def assemble_contact(
-    face: Face,
-    entries: Integers,
-    plane: Plane,
-    heights: Reals,
-    tilt: float,
-    displacement: Reals,
-    tangent: bool,
-    residual: Reals,
-    values: Reals,
-) -> None:
-    """Add a face's contact forces to ``residual`` (N) and the tangent to the CSR ``values``.
-
-    ``entries`` (k, 210) are the places in the values; ``heights`` (n,) of the nodes on the moving
-    plane, NaN for all others, and its ``tilt`` (rad).
-    """
-    r = np.empty(UNKNOWNS)
-    k = np.empty((UNKNOWNS, UNKNOWNS))
-    for triangle in range(face.triangles.shape[0]):
-        nodes = face.triangles[triangle]
-        r[:] = 0.0
-        k[:, :] = 0.0
-        x = face.nodes[nodes] + displacement[nodes]
-        if not triangle_response(face, triangle, plane, x, r, k):
-            continue
-        mirror_upper(k)
-        for a in range(6):
-            if not np.isnan(heights[nodes[a]]):
-                to_plane_unknowns(r, k, a, heights[nodes[a]], tilt)
-        scatter(r, k, face.dofs[triangle], entries[triangle], 1.0, tangent, residual, values)
 
 
 @dataclass(frozen=True)

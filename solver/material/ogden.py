@@ -1,23 +1,36 @@
-"""Hyperelastic materials as data, with their response at a point."""
+"""Ogden's law in Abaqus's form, any number of terms, with Yeoh's higher ones.
+
+W = sum 2 mu / alpha^2 (sum_i exp(alpha e_i) - 3) of isochoric principal log stretches e_i is
+evaluated with phi1(x) = expm1(x) / x and phi2(x) = (exp(x) - 1 - x) / x^2, which need no switch at
+equal stretches nor at alpha -> 0 (Hencky). Yeoh's terms sum C_i0 (I1 - 3)^i of order i >= 2 have
+the first and second derivatives W' and W'' by I1. They act as an Ogden term of mu = 2 W' and
+alpha = 2 whose mu depends on the strain, which adds 4 W'' l_i^2 l_j^2, of rank one, to the
+derivatives of the stress.
+
+Constants as the compiled functions take them: the number of terms n, mu (n,), alpha (n,), and
+C20, C30, ... of any number.
+"""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Literal, Self
+from typing import ClassVar, Self
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from solver.arrays import Reals
 from solver.errors import SolverError
-
-Volumetric = Literal["quadratic", "logarithmic"]
+from solver.kernels.compiled import compiled
+from solver.kernels.special_functions import phi1, phi2, sinhc
+from solver.material.law import Constants, Hyperelastic, Volumetric
+from solver.material.laws import number_of
 
 
 @dataclass(frozen=True)
-class Ogden:
+class Ogden(Hyperelastic):
     """Ogden's rubber in Abaqus's form, any number of terms, with Yeoh's higher ones.
 
     W = sum_k 2 mu_k / alpha_k^2 (l1^alpha_k + l2^alpha_k + l3^alpha_k - 3) of the isochoric
@@ -25,15 +38,15 @@ class Ogden:
     mu_k (ln^2 l1 + ln^2 l2 + ln^2 l3). ``higher`` = (C20, C30, ...), MPa, adds Yeoh's
     C20 (I1 - 3)^2 + C30 (I1 - 3)^3 + ... of I1 = l1^2 + l2^2 + l3^2.
 
-    An infinite ``bulk_modulus`` K (MPa) means J = 1; a finite one adds K (J - 1)^2 / 2 if
-    ``volumetric`` is "quadratic", K (J^2 - 1 - 2 ln J) / 4 if it is "logarithmic", the law that
-    resists without bound as J goes to 0.
+    ``bulk_modulus`` (MPa) and ``volumetric`` as for every ``Hyperelastic``.
 
     Every mu_k is positive, which is Hill's inequality in this form: such a material is stable at
     every strain as long as no ``higher`` is negative. Negative ones, common in Yeoh's model, are
     taken, and are stable up to some strain only. Raises ``SolverError`` for other mu, when a number
     is not finite, when the lengths of ``mu`` and ``alpha`` differ, and for an unknown law.
     """
+
+    law: ClassVar[str] = "ogden"
 
     mu: tuple[float, ...]
     alpha: tuple[float, ...]
@@ -71,46 +84,113 @@ class Ogden:
             for value in getattr(self, name):
                 if not math.isfinite(value):
                     raise SolverError(f"Ogden: {name} must be finite, got {value}{unit}.")
-        if not self.bulk_modulus > 0:
-            raise SolverError(f"Ogden: bulk_modulus must be positive, got {self.bulk_modulus} MPa.")
-        if self.volumetric not in ("quadratic", "logarithmic"):
-            raise SolverError(
-                f"Ogden: volumetric must be quadratic or logarithmic, got {self.volumetric!r}."
-            )
+        self._check_volumetric()
 
     @property
     def shear_modulus(self) -> float:
         """Initial shear modulus, the sum of mu, MPa."""
         return sum(self.mu)
 
-    @property
-    def compliance(self) -> float:
-        """1 / bulk_modulus, 1/MPa; exactly 0 when incompressible."""
-        return 1.0 / self.bulk_modulus
-
     @cached_property
-    def coefficients(self) -> tuple[Reals, Reals]:
-        """mu and alpha as arrays for the kernels."""
-        return np.array(self.mu), np.array(self.alpha)
+    def values(self) -> Reals:
+        """The constants as the compiled functions take them."""
+        return packed(self.mu, self.alpha, self.higher).values
 
-    @cached_property
-    def higher_coefficients(self) -> Reals:
-        """``higher`` as an array for the kernels."""
-        return np.array(self.higher, dtype=float)
 
-    def energy(self, log_stretches: ArrayLike) -> float:
-        """W in MPa at isochoric principal log stretches (3,), whose sum is 0."""
-        from solver.kernels.kernels import higher_energy, ogden_energy
+MATERIAL = Ogden
 
-        logs = np.asarray(log_stretches, float)
-        energy = ogden_energy(logs, *self.coefficients)
-        return float(energy + higher_energy(logs, self.higher_coefficients))
 
-    def principal_stresses(self, log_stretches: ArrayLike) -> Reals:
-        """Deviatoric principal Kirchhoff stresses (3,), MPa, at isochoric log stretches (3,)."""
-        from solver.kernels.kernels import higher_moduli, undeviated_stress
+def packed(
+    mu: Sequence[float] | Reals,
+    alpha: Sequence[float] | Reals,
+    higher: Sequence[float] | Reals = (),
+) -> Constants:
+    """Constants of either sign: ``mu`` and ``higher`` in MPa."""
+    values = np.concatenate([[len(mu)], mu, alpha, higher])
+    return Constants(number_of(Ogden.law), np.asarray(values, float))
 
-        logs, stress = np.asarray(log_stretches, float), np.empty(3)
-        modulus, _ = higher_moduli(logs, self.higher_coefficients)
-        undeviated_stress(logs, *self.coefficients, modulus, stress)
-        return stress - stress.mean()
+
+@compiled()
+def energy(e: Reals, constants: Reals) -> float:
+    """W of isochoric log stretches e (3,), MPa: sum 2 mu e_i^2 phi2(alpha e_i), and Yeoh's."""
+    terms = int(constants[0])
+    total = 0.0
+    for k in range(1, terms + 1):
+        mu, alpha = constants[k], constants[terms + k]
+        for i in range(3):
+            total += 2.0 * mu * e[i] * e[i] * phi2(alpha * e[i])
+    if constants.size > 2 * terms + 1:
+        total += higher_energy(first_invariant(e), constants)
+    return total
+
+
+@compiled()
+def response(
+    e: Reals, gaps: Reals, constants: Reals, stress: Reals, hessian: Reals, divided: Reals
+) -> None:
+    """s_i = sum 2 mu e_i phi1(alpha e_i), ds_i/de_j and divided differences of s, MPa."""
+    terms = int(constants[0])
+    modulus, curvature = 0.0, 0.0
+    if constants.size > 2 * terms + 1:
+        modulus, curvature = higher_moduli(first_invariant(e), constants)
+    for i in range(3):
+        stress[i] = 0.0
+        divided[i] = 0.0
+        stiffness = 0.0
+        mean = 0.5 * (e[i] + e[(i + 1) % 3])
+        for k in range(1, terms + 1):
+            mu, alpha = constants[k], constants[terms + k]
+            stress[i] += 2.0 * mu * e[i] * phi1(alpha * e[i])
+            stiffness += 2.0 * mu * math.exp(alpha * e[i])
+            divided[i] += 2.0 * mu * math.exp(alpha * mean) * sinhc(0.5 * alpha * gaps[i])
+        if modulus != 0.0:
+            stress[i] += 2.0 * modulus * e[i] * phi1(2.0 * e[i])
+            stiffness += 2.0 * modulus * math.exp(2.0 * e[i])
+            divided[i] += 2.0 * modulus * math.exp(2.0 * mean) * sinhc(gaps[i])
+        for j in range(3):
+            hessian[i, j] = stiffness if i == j else 0.0
+    if curvature != 0.0:
+        _add_rank_one(e, curvature, hessian)
+
+
+@compiled()
+def first_invariant(e: Reals) -> float:
+    """I1 - 3 of isochoric log stretches e (3,), without cancellation: sum 4 e_i^2 phi2(2 e_i)."""
+    total = 0.0
+    for i in range(3):
+        total += 4.0 * e[i] * e[i] * phi2(2.0 * e[i])
+    return total
+
+
+@compiled()
+def higher_energy(x: float, constants: Reals) -> float:
+    """Yeoh's sum C_i0 x^i over i >= 2 of x = I1 - 3, MPa."""
+    first = 2 * int(constants[0]) + 1
+    total = 0.0
+    for k in range(constants.size - 1, first - 1, -1):
+        total = total * x + constants[k]
+    return total * x * x
+
+
+@compiled()
+def higher_moduli(x: float, constants: Reals) -> tuple[float, float]:
+    """2 W' and 4 W'' of ``higher_energy``, derivatives by I1; MPa."""
+    first = 2 * int(constants[0]) + 1
+    slope = 0.0
+    second = 0.0
+    for k in range(constants.size - 1, first - 1, -1):
+        order = k - first + 2
+        slope = slope * x + order * constants[k]
+        second = second * x + order * (order - 1) * constants[k]
+    return 2.0 * slope * x, 4.0 * second
+
+
+@compiled()
+def _add_rank_one(e: Reals, factor: float, hessian: Reals) -> None:
+    """Add ``factor`` times d_i d_j, where d_i = l_i^2 - 1; the 1 is no deviator."""
+    squares = np.empty(3)
+    for i in range(3):
+        squares[i] = 2.0 * e[i] * phi1(2.0 * e[i])
+    for i in range(3):
+        for j in range(3):
+            hessian[i, j] += factor * squares[i] * squares[j]

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from solver.errors import SolverError
-from solver.material.ogden import Ogden
+from solver.material.law import Hyperelastic
 from solver.mesh.mesh import Mesh
 from solver.problem.supports import Supports
 
@@ -79,7 +79,7 @@ class Problem:
     """
 
     mesh: Mesh
-    material: Ogden
+    material: Hyperelastic
     supports: Supports
     pressurised: tuple[str, ...] = ()
     loads: tuple[Load, ...] = ()

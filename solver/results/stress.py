@@ -10,7 +10,7 @@ import numpy as np
 from solver.arrays import Integers, Reals
 from solver.assembly.assembly import solid
 from solver.assembly.state import State
-from solver.kernels import kernels
+from solver.kernels.stress import deviatoric_stress
 from solver.mesh.elements import TETRAHEDRON_EDGES, tetrahedron_rule
 from solver.problem.problem import Problem
 from solver.results.sharp_edges import trusted_nodes
@@ -120,7 +120,7 @@ def _in_elements(problem: Problem, displacement: Reals) -> tuple[Reals, Reals]:
     rule = tetrahedron_rule()
     stress = np.empty((len(problem.mesh.tets), len(rule.weights), 6))
     volumes = np.empty(stress.shape[:2])
-    kernels.deviatoric_stress(solid(problem), np.ascontiguousarray(displacement), stress, volumes)
+    deviatoric_stress(solid(problem), np.ascontiguousarray(displacement), stress, volumes)
     at_corners = np.einsum("vq,eqc->evc", np.linalg.inv(rule.linear), stress)
     middles = [(at_corners[:, a] + at_corners[:, b]) / 2 for a, b in TETRAHEDRON_EDGES]
     at_nodes = np.concatenate([at_corners, np.stack(middles, axis=1)], axis=1)

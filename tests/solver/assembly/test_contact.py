@@ -23,8 +23,9 @@ from solver import (
     solve,
 )
 from solver.assembly.assembly import Assembly
-from solver.assembly.contact import contact_law, image_gaps, lowest_gaps
+from solver.assembly.contact import image_gaps, lowest_gaps
 from solver.assembly.state import State
+from solver.kernels.contact import contact_law
 from solver.linear.sparsity import Pattern
 
 Array = NDArray[np.float64]

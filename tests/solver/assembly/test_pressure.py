@@ -87,7 +87,7 @@ def test_pressure_on_a_closed_surface_has_no_resultant(box: BoxMesh, ninjaflex: 
     skin = assembly._skin._replace(
         dofs=np.arange(x.size, dtype=np.int32).reshape(-1, 3)[mesh.triangles(*ALL)].reshape(-1, 18)
     )
-    from solver.assembly.pressure import assemble_pressure
+    from solver.kernels.pressure import assemble_pressure
 
     force = np.zeros(x.size)
     assemble_pressure(skin, x - mesh.nodes, 1.0, False, force, np.zeros(0))

@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 
 from solver import Mesh, Ogden, Problem, Supports
 from solver.assembly.assembly import solid
-from solver.kernels import kernels as k
+from solver.kernels.element import Solid, element_energy, element_response
+from solver.kernels.tensors import jacobi
 
 MATERIALS = {
     "incompressible": Ogden((0.19825, 3.2778), (3.05, -0.0054)),
@@ -40,7 +41,7 @@ GRADIENTS = {
 }
 
 
-def element(material: Ogden, curved: float = 0.03) -> tuple[k.Solid, NDArray[np.float64]]:
+def element(material: Ogden, curved: float = 0.03) -> tuple[Solid, NDArray[np.float64]]:
     """One tetrahedron, its edges bent at random by ``curved``."""
     corners = np.array([[0.1, 0, 0], [1.2, 0.1, 0], [0.2, 0.9, 0.1], [0.1, 0.2, 1.1]])
     pairs = [(0, 1), (1, 2), (0, 2), (0, 3), (2, 3), (1, 3)]
@@ -58,10 +59,10 @@ def state(gradient: NDArray[np.float64], nodes: NDArray[np.float64], bend: float
     return u, random.uniform(-0.4, 0.4, 4)
 
 
-def response(body: k.Solid, nodes: NDArray, v: NDArray) -> tuple[NDArray, NDArray]:
+def response(body: Solid, nodes: NDArray, v: NDArray) -> tuple[NDArray, NDArray]:
     """Residual (34,) and whole tangent (34, 34) at unknowns v (34,)."""
     r, upper = np.empty(34), np.empty((34, 34))
-    assert k.element_response(body, nodes, v[:30].reshape(10, 3), v[30:], OWN, True, r, upper) > 0
+    assert element_response(body, nodes, v[:30].reshape(10, 3), v[30:], OWN, True, r, upper) > 0
     return r, np.triu(upper) + np.triu(upper, 1).T
 
 
@@ -93,7 +94,7 @@ def test_residual_is_the_gradient_of_the_energy(material: Ogden, gradient: NDArr
     residual, _ = response(body, nodes, v)
 
     def energy(v: NDArray) -> float:
-        return k.element_energy(body, nodes, v[:30].reshape(10, 3), v[30:])[0]
+        return element_energy(body, nodes, v[:30].reshape(10, 3), v[30:])[0]
 
     steps = 1e-3 * np.eye(34)
     slopes = [
@@ -113,7 +114,7 @@ def test_energy_and_forces_turn_with_the_frame(gradient: NDArray) -> None:
     forces = before[:30].reshape(10, 3) @ ROTATION.T
     assert after[:30].reshape(10, 3) == pytest.approx(forces, abs=1e-13)
     assert after[30:] == pytest.approx(before[30:], abs=1e-14)
-    energies = [k.element_energy(body, nodes, w, q)[0] for w in (u, turned)]
+    energies = [element_energy(body, nodes, w, q)[0] for w in (u, turned)]
     assert energies[0] == pytest.approx(energies[1], rel=1e-13)
 
 
@@ -131,7 +132,7 @@ def test_small_strains_keep_their_digits() -> None:
     strain = np.array([[1.0, 0.3, 0.0], [0.3, -0.2, 0.1], [0.0, 0.1, -0.8]])
     energies = []
     for size in (1e-3, 1e-6, 1e-9):
-        energy, volume = k.element_energy(body, nodes, size * nodes @ strain, np.zeros(4))
+        energy, volume = element_energy(body, nodes, size * nodes @ strain, np.zeros(4))
         energies.append(energy / (volume * 3.47605 * size**2 * (strain**2).sum()))
     assert energies == pytest.approx([1.0, 1.0, 1.0], rel=2e-3)
     assert energies[1:] == pytest.approx([1.0, 1.0], rel=3e-6)
@@ -144,7 +145,7 @@ def test_eigenvalues_are_accurate_for_nearly_equal_and_for_spread_spectra() -> N
         matrix = ROTATION @ np.diag(exact) @ ROTATION.T
         matrix = (matrix + matrix.T) / 2
         rest, vectors = matrix.copy(), np.empty((3, 3))
-        k.jacobi(rest, vectors)
+        jacobi(rest, vectors)
         assert np.sort(np.diag(rest)) == pytest.approx(np.sort(exact), abs=1e-15 * abs(exact).max())
         assert vectors.T @ vectors == pytest.approx(np.eye(3), abs=1e-15)
         rebuilt = vectors @ np.diag(np.diag(rest)) @ vectors.T
@@ -155,15 +156,15 @@ def test_an_element_turned_inside_out_is_reported() -> None:
     body, nodes = element(MATERIALS["incompressible"])
     u = nodes @ (np.diag([1.0, 1.0, -1.0]) - np.eye(3))
     r, tangent = np.empty(34), np.empty((34, 34))
-    assert k.element_response(body, nodes, u, np.zeros(4), OWN, True, r, tangent) < 0
-    assert np.isnan(k.element_energy(body, nodes, u, np.zeros(4))[0])
+    assert element_response(body, nodes, u, np.zeros(4), OWN, True, r, tangent) < 0
+    assert np.isnan(element_energy(body, nodes, u, np.zeros(4))[0])
 
 
 PLAIN_PYTHON = """
 import sys
 import numpy as np
 from numba import config
-from solver.kernels.kernels import Solid, element_response
+from solver.kernels.element import Solid, element_response
 assert config.DISABLE_JIT
 data = np.load(sys.argv[1])
 body = Solid(*(data[f"solid_{i}"] for i in range(len(Solid._fields))))
@@ -187,6 +188,6 @@ def test_compiled_kernels_equal_plain_python(tmp_path: Path) -> None:
     )
     plain = np.load(tmp_path / "out.npz")
     r, tangent = np.empty(34), np.empty((34, 34))
-    k.element_response(body, nodes, u, q, OWN, True, r, tangent)
+    element_response(body, nodes, u, q, OWN, True, r, tangent)
     assert plain["r"] == pytest.approx(r, rel=1e-12, abs=1e-15)
     assert np.triu(plain["k"]) == pytest.approx(np.triu(tangent), rel=1e-12, abs=1e-14)

@@ -1,0 +1,43 @@
+"""The table of hyperelastic laws. A new law is a module beside this one, and a row here.
+
+The module of a law holds
+
+- ``energy(e, constants)``: W in MPa at isochoric principal log stretches e (3,), compiled;
+- ``response(e, gaps, constants, stress, hessian, divided)``: derivatives of W, compiled. It fills
+  ``stress`` (3,) with s_i = dW/de_i, ``hessian`` (3, 3) with d2W/de_i de_j, and ``divided`` (3,)
+  with (s_i - s_j) / (e_i - e_j) of the pairs (0, 1), (1, 2), (2, 0), whose differences e_i - e_j
+  are ``gaps`` (3,): exact where stretches are equal. Only their deviatoric parts count: each s_i
+  may have the same number added, and dW/de_i may be that of any extension of W to e that do not
+  sum to 0;
+- ``MATERIAL``: the class of its materials, a ``Hyperelastic``.
+
+This file itself imports no compiled code.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from importlib import import_module
+from types import ModuleType
+
+
+@dataclass(frozen=True)
+class Law:
+    """A row: the law's ``name`` in files, and the ``module`` beside this one that implements it."""
+
+    name: str
+    module: str
+
+    @property
+    def implementation(self) -> ModuleType:
+        """The module, imported when first asked for."""
+        return import_module(f"solver.material.{self.module}")
+
+
+LAWS = (Law("ogden", "ogden"),)
+
+
+def number_of(name: str) -> int:
+    """Place of a law in the table. Raises ``KeyError`` for an unknown name."""
+    numbers = {law.name: number for number, law in enumerate(LAWS)}
+    return numbers[name]
