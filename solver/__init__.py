@@ -18,9 +18,10 @@ if TYPE_CHECKING:
     from solver.mesh.mesh import Mesh
     from solver.nonlinear.arc_length import Limit, Trace, trace
     from solver.nonlinear.checkpoint import Checkpoint
+    from solver.nonlinear.events import Event
     from solver.nonlinear.finite_motion import rotation
     from solver.nonlinear.load_stepping import solve
-    from solver.nonlinear.newton import Event, SolverOptions
+    from solver.nonlinear.options import SolverOptions
     from solver.nonlinear.volume_control import inflate
     from solver.problem.loads import BodyForce, Couple, PointForce, Traction
     from solver.problem.problem import Contact, Problem, SlenderAxis
@@ -74,7 +75,8 @@ __getattr__ = imported_when_asked_for(
         "nonlinear.checkpoint": ("Checkpoint",),
         "nonlinear.finite_motion": ("rotation",),
         "nonlinear.load_stepping": ("solve",),
-        "nonlinear.newton": ("Event", "SolverOptions"),
+        "nonlinear.events": ("Event",),
+        "nonlinear.options": ("SolverOptions",),
         "nonlinear.volume_control": ("inflate",),
         "problem.loads": ("BodyForce", "Couple", "PointForce", "Traction"),
         "problem.problem": ("Contact", "Problem", "SlenderAxis"),

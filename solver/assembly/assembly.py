@@ -9,14 +9,14 @@ from numpy.typing import NDArray
 
 from solver.arrays import Integers, Reals
 from solver.assembly.colouring import chunks
-from solver.assembly.contact import Touches
+from solver.assembly.contact import Contacts
 from solver.assembly.moving_plane import MovingPlane
-from solver.assembly.pressure import skin
+from solver.assembly.pressure import pressure_facets
 from solver.assembly.state import State
 from solver.errors import SolverError
 from solver.kernels.assembly import Places, assemble, assemble_plane, total_energy
 from solver.kernels.element import Solid
-from solver.kernels.pressure import Skin, assemble_pressure, assemble_volume
+from solver.kernels.pressure import PressureFacets, assemble_pressure, assemble_volume
 from solver.kernels.stress import extrapolated_stress
 from solver.linear.sparsity import Pattern, upper_pattern
 from solver.mesh.elements import tetrahedron_rule
@@ -77,8 +77,8 @@ class Assembly:
         self.dead_force = self.numbering.gather(nodal_forces(mesh, problem.loads))
         if self.plane is not None:
             self.dead_force[self.numbering.plane[0]] += couple(problem.loads)
-        self._skin = self._pressurised_skin()
-        self.touches = Touches(problem, self.numbering, self.plane, self.pattern)
+        self._facets = self._pressure_facets()
+        self.contacts = Contacts(problem, self.numbering, self.plane, self.pattern)
 
     def evaluate(
         self, state: State, pressure: float, tangent: bool = True, load: float = 0.0
@@ -94,7 +94,7 @@ class Assembly:
             self._geometric(state), tangent, residual, values, jacobians,
         )  # fmt: skip
         if self.plane is None:
-            assemble_pressure(self._skin, displacement, pressure, tangent, force, values)
+            assemble_pressure(self._facets, displacement, pressure, tangent, force, values)
         else:
             heights = self.plane.heights(state)
             assemble_plane(
@@ -103,10 +103,17 @@ class Assembly:
                 tangent, residual, values, jacobians,
             )  # fmt: skip
             assemble_volume(
-                self._skin, heights, state.plane[0], displacement, pressure, tangent, force, values
+                self._facets,
+                heights,
+                state.plane[0],
+                displacement,
+                pressure,
+                tangent,
+                force,
+                values,
             )
         residual += pressure * force - load * self.dead_force
-        values, pattern = self.touches.add(state, tangent, residual, values)
+        values, pattern = self.contacts.add(state, tangent, residual, values)
         return Equilibrium(residual, force, values, float(jacobians.min(initial=np.inf)), pattern)
 
     def extrapolated_stress(self, state: State, increment: State) -> Reals:
@@ -124,7 +131,7 @@ class Assembly:
     def energy(self, state: State) -> float:
         """Pi of the solid and its contacts, N mm: its gradient is the residual at zero pressure."""
         solid = total_energy(self._solid, state.displacement, state.hydrostatic_pressure)
-        return float(solid[0]) + self.touches.energy(state)
+        return float(solid[0]) + self.contacts.energy(state)
 
     def _geometric(self, state: State) -> Reals:
         """A state's geometric stress as the kernels want it: (e, 0, 6) for none."""
@@ -136,12 +143,12 @@ class Assembly:
         plane = np.broadcast_to(self.numbering.plane, (len(dofs), 2))
         return np.hstack([dofs, plane])
 
-    def _pressurised_skin(self) -> Skin:
+    def _pressure_facets(self) -> PressureFacets:
         triangles = self.problem.mesh.triangles(*self.problem.pressurised)
         dofs = self.numbering.of_triangles(triangles)
         if self.plane is not None:
             dofs = self._with_plane(dofs)
-        return skin(self.problem.mesh, triangles, dofs, self.pattern.entries(dofs))
+        return pressure_facets(self.problem.mesh, triangles, dofs, self.pattern.entries(dofs))
 
 
 def unbalanced_forces(problem: Problem, state: State, pressure: float, load: float) -> Reals:
@@ -161,7 +168,7 @@ def unbalanced_forces(problem: Problem, state: State, pressure: float, load: flo
     )  # fmt: skip
     triangles = mesh.triangles(*problem.pressurised)
     no_entries = np.empty((len(triangles), 0), np.int32)
-    loaded = skin(mesh, triangles, everything.of_triangles(triangles), no_entries)
+    loaded = pressure_facets(mesh, triangles, everything.of_triangles(triangles), no_entries)
     assemble_pressure(loaded, displacement, pressure, False, force, nothing)
     forces, _, _ = everything.expand(residual + pressure * force)
     return forces - load * nodal_forces(mesh, problem.loads)

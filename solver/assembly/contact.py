@@ -51,7 +51,7 @@ INITIAL_CROSSING = 1e-6
 
 
 @dataclass(frozen=True)
-class Touch:
+class ContactPair:
     """One contact of a problem on its mesh."""
 
     problem: Problem
@@ -59,7 +59,7 @@ class Touch:
     face: Face
 
     @staticmethod
-    def of(problem: Problem, contact: Contact, numbering: Numbering) -> Touch:
+    def of(problem: Problem, contact: Contact, numbering: Numbering) -> ContactPair:
         """The contact with its triangles' quadrature and numbers of unknowns."""
         mesh, rule = problem.mesh, triangle_rule()
         triangles = mesh.triangles(contact.surface)
@@ -72,7 +72,7 @@ class Touch:
             stiffness=problem.material.shear_modulus / contact.penetration,
             smoothing=SMOOTHING * contact.penetration,
         )
-        return Touch(problem, contact, face)
+        return ContactPair(problem, contact, face)
 
     def plane(self, state: State) -> Plane:
         """Where the plane is now."""
@@ -85,12 +85,12 @@ class Touch:
         gaps: Reals = along[self.face.triangles] @ self.face.shapes.T + constant
         return gaps
 
-    def softer(self, factor: float) -> Touch:
+    def softer(self, factor: float) -> ContactPair:
         """The same contact with ``factor`` times its penetration."""
         depth = factor * self.contact.penetration
         stiffness, smoothing = self.face.stiffness / factor, SMOOTHING * depth
         face = self.face._replace(stiffness=stiffness, smoothing=smoothing)
-        return Touch(self.problem, replace(self.contact, penetration=depth), face)
+        return ContactPair(self.problem, replace(self.contact, penetration=depth), face)
 
     def entries(self, pattern: Pattern | None) -> Integers:
         """Places of the triangles' entries in a pattern, (k, 210); none without one."""
@@ -103,7 +103,7 @@ class Touch:
         return bool((self.gaps(state) < 0).any())
 
 
-class Touches:
+class Contacts:
     """All contacts of a problem, and what they need of its tangent's pattern.
 
     A surface that touches the moving plane couples with its tilt and shift. Places for that are
@@ -115,28 +115,28 @@ class Touches:
     ) -> None:
         self._plane = plane
         self._pattern = pattern
-        self._touches = tuple(Touch.of(problem, each, numbering) for each in problem.contacts)
-        _check_apart(problem, self._touches)
+        self._pairs = tuple(ContactPair.of(problem, each, numbering) for each in problem.contacts)
+        _check_apart(problem, self._pairs)
 
     @contextmanager
     def softened(self) -> Iterator[None]:
         """Contacts softer by ``SOFTENING`` for a while: their way of settling is shorter."""
-        stiff = self._touches
-        self._touches = tuple(touch.softer(SOFTENING) for touch in stiff)
+        stiff = self._pairs
+        self._pairs = tuple(touch.softer(SOFTENING) for touch in stiff)
         try:
             yield
         finally:
-            self._touches = stiff
+            self._pairs = stiff
 
     def energy(self, state: State) -> float:
         """Energy of all contacts, N mm."""
         return float(
-            sum(face_energy(t.face, t.plane(state), state.displacement) for t in self._touches)
+            sum(face_energy(t.face, t.plane(state), state.displacement) for t in self._pairs)
         )
 
     def depth(self, state: State) -> float:
         """Depth (mm) over which a contact changes that is at work; infinite without one."""
-        active = (touch for touch in self._touches if touch.touches(state))
+        active = (touch for touch in self._pairs if touch.touches(state))
         return min((touch.contact.penetration for touch in active), default=np.inf)
 
     def add(
@@ -146,7 +146,7 @@ class Touches:
 
         ``values`` are in the pattern without contact, and empty unless ``tangent``.
         """
-        active = [touch for touch in self._touches if touch.touches(state)]
+        active = [touch for touch in self._pairs if touch.touches(state)]
         pattern = self._pattern
         if tangent and any(touch.contact.axis is None for touch in active):
             pattern, places = self._wide
@@ -169,7 +169,7 @@ class Touches:
     @cached_property
     def _wide(self) -> tuple[Pattern, Integers]:
         """The pattern with contact at the moving plane, and where the other's entries are in it."""
-        cells = [touch.face.dofs for touch in self._touches if touch.contact.axis is None]
+        cells = [touch.face.dofs for touch in self._pairs if touch.contact.axis is None]
         return widened(self._pattern, np.concatenate(cells))
 
 
@@ -183,7 +183,7 @@ def lowest_gaps(problem: Problem, displacement: Reals, plane: Reals) -> tuple[fl
 
     state = State(displacement, np.zeros(0), np.asarray(plane, float))
     numbering = number_unknowns(problem.mesh, problem.supports, problem.moving_plane)
-    touches = (Touch.of(problem, each, numbering) for each in problem.contacts)
+    touches = (ContactPair.of(problem, each, numbering) for each in problem.contacts)
     return tuple(float(touch.gaps(state).min(initial=np.inf)) for touch in touches)
 
 
@@ -251,7 +251,7 @@ def _end(problem: Problem) -> float:
     return float(problem.mesh.nodes[problem.mesh.surface_nodes(problem.moving_plane)[0], 0])
 
 
-def _check_apart(problem: Problem, touches: tuple[Touch, ...]) -> None:
+def _check_apart(problem: Problem, touches: tuple[ContactPair, ...]) -> None:
     """Raise ``SolverError`` if a surface lies beyond its plane from the start."""
     still = State.zero(problem)
     for touch in touches:

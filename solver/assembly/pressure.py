@@ -19,15 +19,19 @@ from __future__ import annotations
 import numpy as np
 
 from solver.arrays import Integers, Reals
-from solver.kernels.pressure import Skin
+from solver.kernels.pressure import PressureFacets
 from solver.mesh.elements import triangle_rule
 from solver.mesh.mesh import Mesh
 
 
-def skin(mesh: Mesh, triangles: Integers, dofs: Integers, entries: Integers) -> Skin:
+def pressure_facets(
+    mesh: Mesh, triangles: Integers, dofs: Integers, entries: Integers
+) -> PressureFacets:
     """Triangles (k, 6) of a mesh with the places of their unknowns."""
     rule = triangle_rule()
-    return Skin(mesh.nodes, triangles, rule.quadratic, rule.gradients, rule.weights, dofs, entries)
+    return PressureFacets(
+        mesh.nodes, triangles, rule.quadratic, rule.gradients, rule.weights, dofs, entries
+    )
 
 
 def enclosed_volume(mesh: Mesh, displacement: Reals, surfaces: tuple[str, ...]) -> float:

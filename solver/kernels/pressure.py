@@ -15,7 +15,7 @@ UNKNOWNS = 18
 """Of a triangle."""
 
 
-class Skin(NamedTuple):
+class PressureFacets(NamedTuple):
     """Pressurised triangles as the kernels see them.
 
     ``nodes`` (n, 3), ``triangles`` (k, 6); quadratic ``shapes`` (q, 6), their ``gradients``
@@ -34,7 +34,7 @@ class Skin(NamedTuple):
 
 
 @compiled()
-def triangle_response(skin: Skin, x: Reals, tangent: bool, f: Reals, k: Reals) -> None:
+def triangle_response(facets: PressureFacets, x: Reals, tangent: bool, f: Reals, k: Reals) -> None:
     """Force f (18,) = integral of N_a n da and the upper half of its symmetric tangent k (18, 18).
 
     ``x`` (6, 3) deformed nodes, mm; per unit pressure, so f is in mm^2 and k in mm.
@@ -45,25 +45,25 @@ def triangle_response(skin: Skin, x: Reals, tangent: bool, f: Reals, k: Reals) -
     x_r = np.empty(3)
     x_s = np.empty(3)
     v = np.empty(3)
-    for point in range(skin.weights.size):
-        w = skin.weights[point]
+    for point in range(facets.weights.size):
+        w = facets.weights[point]
         for i in range(3):
             x_r[i] = 0.0
             x_s[i] = 0.0
             for a in range(6):
-                x_r[i] += skin.gradients[point, a, 0] * x[a, i]
-                x_s[i] += skin.gradients[point, a, 1] * x[a, i]
+                x_r[i] += facets.gradients[point, a, 0] * x[a, i]
+                x_s[i] += facets.gradients[point, a, 1] * x[a, i]
         for a in range(6):
             for i in range(3):
                 m, n = (i + 1) % 3, (i + 2) % 3
-                f[3 * a + i] += w * skin.shapes[point, a] * (x_r[m] * x_s[n] - x_r[n] * x_s[m])
+                f[3 * a + i] += w * facets.shapes[point, a] * (x_r[m] * x_s[n] - x_r[n] * x_s[m])
         if not tangent:
             continue
         for a in range(6):
             for b in range(a + 1, 6):
-                na, nb = 0.5 * w * skin.shapes[point, a], 0.5 * w * skin.shapes[point, b]
-                along_r = na * skin.gradients[point, b, 1] - nb * skin.gradients[point, a, 1]
-                along_s = na * skin.gradients[point, b, 0] - nb * skin.gradients[point, a, 0]
+                na, nb = 0.5 * w * facets.shapes[point, a], 0.5 * w * facets.shapes[point, b]
+                along_r = na * facets.gradients[point, b, 1] - nb * facets.gradients[point, a, 1]
+                along_s = na * facets.gradients[point, b, 0] - nb * facets.gradients[point, a, 0]
                 for i in range(3):
                     v[i] = along_r * x_r[i] - along_s * x_s[i]
                 k[3 * a, 3 * b + 1] -= v[2]
@@ -76,7 +76,12 @@ def triangle_response(skin: Skin, x: Reals, tangent: bool, f: Reals, k: Reals) -
 
 @compiled()
 def assemble_pressure(
-    skin: Skin, displacement: Reals, pressure: float, tangent: bool, force: Reals, values: Reals
+    facets: PressureFacets,
+    displacement: Reals,
+    pressure: float,
+    tangent: bool,
+    force: Reals,
+    values: Reals,
 ) -> None:
     """Add the unit-pressure forces to ``force`` and ``pressure`` times the tangent to ``values``.
 
@@ -85,38 +90,40 @@ def assemble_pressure(
     f = np.empty(UNKNOWNS)
     k = np.empty((UNKNOWNS, UNKNOWNS))
     x = np.empty((6, 3))
-    for triangle in range(skin.triangles.shape[0]):
+    for triangle in range(facets.triangles.shape[0]):
         for a in range(6):
             for i in range(3):
-                node = skin.triangles[triangle, a]
-                x[a, i] = skin.nodes[node, i] + displacement[node, i]
-        triangle_response(skin, x, tangent, f, k)
-        scatter(f, k, skin.dofs[triangle], skin.entries[triangle], pressure, tangent, force, values)
+                node = facets.triangles[triangle, a]
+                x[a, i] = facets.nodes[node, i] + displacement[node, i]
+        triangle_response(facets, x, tangent, f, k)
+        scatter(
+            f, k, facets.dofs[triangle], facets.entries[triangle], pressure, tangent, force, values
+        )
 
 
 @compiled()
-def volume_response(skin: Skin, x: Reals, f: Reals, k: Reals) -> None:
+def volume_response(facets: PressureFacets, x: Reals, f: Reals, k: Reals) -> None:
     """First and second derivatives f (18,), k (18, 18) of the integral of y n_y.
 
     With n_y = z_r x_s - x_r z_s. ``x`` (6, 3) deformed nodes, mm.
     """
-    for point in range(skin.weights.size):
-        w = skin.weights[point]
+    for point in range(facets.weights.size):
+        w = facets.weights[point]
         y, x_r, x_s, z_r, z_s = 0.0, 0.0, 0.0, 0.0, 0.0
         for a in range(6):
-            y += skin.shapes[point, a] * x[a, 1]
-            x_r += skin.gradients[point, a, 0] * x[a, 0]
-            x_s += skin.gradients[point, a, 1] * x[a, 0]
-            z_r += skin.gradients[point, a, 0] * x[a, 2]
-            z_s += skin.gradients[point, a, 1] * x[a, 2]
+            y += facets.shapes[point, a] * x[a, 1]
+            x_r += facets.gradients[point, a, 0] * x[a, 0]
+            x_s += facets.gradients[point, a, 1] * x[a, 0]
+            z_r += facets.gradients[point, a, 0] * x[a, 2]
+            z_s += facets.gradients[point, a, 1] * x[a, 2]
         for a in range(6):
-            shape = w * skin.shapes[point, a]
-            a_r, a_s = skin.gradients[point, a, 0], skin.gradients[point, a, 1]
+            shape = w * facets.shapes[point, a]
+            a_r, a_s = facets.gradients[point, a, 0], facets.gradients[point, a, 1]
             f[3 * a] += w * y * (z_r * a_s - a_r * z_s)
             f[3 * a + 1] += shape * (z_r * x_s - x_r * z_s)
             f[3 * a + 2] += w * y * (a_r * x_s - x_r * a_s)
             for b in range(6):
-                b_r, b_s = skin.gradients[point, b, 0], skin.gradients[point, b, 1]
+                b_r, b_s = facets.gradients[point, b, 0], facets.gradients[point, b, 1]
                 along, up = shape * (z_r * b_s - b_r * z_s), shape * (b_r * x_s - x_r * b_s)
                 k[3 * a + 1, 3 * b] += along
                 k[3 * b, 3 * a + 1] += along
@@ -129,7 +136,7 @@ def volume_response(skin: Skin, x: Reals, f: Reals, k: Reals) -> None:
 
 @compiled()
 def assemble_volume(
-    skin: Skin,
+    facets: PressureFacets,
     heights: Reals,
     tilt: float,
     displacement: Reals,
@@ -144,12 +151,14 @@ def assemble_volume(
     """
     f = np.empty(UNKNOWNS + 2)
     k = np.empty((UNKNOWNS + 2, UNKNOWNS + 2))
-    for triangle in range(skin.triangles.shape[0]):
-        nodes = skin.triangles[triangle]
+    for triangle in range(facets.triangles.shape[0]):
+        nodes = facets.triangles[triangle]
         f[:] = 0.0
         k[:, :] = 0.0
-        volume_response(skin, skin.nodes[nodes] + displacement[nodes], f, k)
+        volume_response(facets, facets.nodes[nodes] + displacement[nodes], f, k)
         for a in range(6):
             if not np.isnan(heights[nodes[a]]):
                 to_plane_unknowns(f, k, a, heights[nodes[a]], tilt)
-        scatter(f, k, skin.dofs[triangle], skin.entries[triangle], pressure, tangent, force, values)
+        scatter(
+            f, k, facets.dofs[triangle], facets.entries[triangle], pressure, tangent, force, values
+        )

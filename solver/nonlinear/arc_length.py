@@ -20,8 +20,10 @@ from solver.arrays import Reals
 from solver.assembly.assembly import Equilibrium
 from solver.assembly.state import State
 from solver.errors import SolverError
-from solver.nonlinear.bordering import Station, corrected, station
-from solver.nonlinear.newton import FIRST_STEP, Listener, Newton, SolverOptions
+from solver.nonlinear.bordering import EquilibriumPoint, corrected, equilibrium_point
+from solver.nonlinear.events import Listener
+from solver.nonlinear.newton import Newton
+from solver.nonlinear.options import FIRST_STEP, SolverOptions
 from solver.problem.problem import Problem
 from solver.results.solution import PathPoint
 
@@ -83,17 +85,17 @@ def trace(
             "at least 1."
         )
     newton = Newton(problem, float(pressure), options or SolverOptions(), listener)
-    walker = Walker.of(newton, longest_step)
+    follower = PathFollower.of(newton, longest_step)
     points: list[PathPoint] = []
     states: list[State] = []
     limits: list[Limit] = []
     message = "no further step succeeds."
-    first = walker.start(State.zero(problem), 0.0, newton.options.first_step or FIRST_STEP)
-    for number, (arc, limit) in enumerate(walker.along(first)):
-        points.append(limit.point if limit else walker.point(arc))
-        states.append(arc.station.state)
+    first = follower.start(State.zero(problem), 0.0, newton.options.first_step or FIRST_STEP)
+    for number, (arc, limit) in enumerate(follower.along(first)):
+        points.append(limit.point if limit else follower.point(arc))
+        states.append(arc.equilibrium.state)
         limits += [limit] if limit else []
-        if arc.station.load >= 1:
+        if arc.equilibrium.load >= 1:
             message = "the asked load is reached."
             break
         if until is not None and until(points[-1]):
@@ -107,19 +109,19 @@ def trace(
 
 def limit_ahead(newton: Newton, state: State, load: float, steps: int) -> Limit | None:
     """The first limit beyond a state, if it is within so many steps."""
-    walker = Walker.of(newton, LONGEST_STEP)
-    arcs = walker.along(walker.start(state, load, newton.options.smallest_step))
+    follower = PathFollower.of(newton, LONGEST_STEP)
+    arcs = follower.along(follower.start(state, load, newton.options.smallest_step))
     return next((limit for _, limit in islice(arcs, steps + 1) if limit), None)
 
 
 @dataclass(frozen=True)
 class Arc:
-    """A station, the path's unit ``tangent`` (m,) and the load's ``slope`` (1/mm) along it.
+    """An equilibrium, the path's unit ``tangent`` (m,) and the load's ``slope`` (1/mm) along it.
 
     ``length``: how far to step next, ``came``: how long the step to here was, mm.
     """
 
-    station: Station
+    equilibrium: EquilibriumPoint
     tangent: Reals
     slope: float
     length: float
@@ -127,7 +129,7 @@ class Arc:
 
 
 @dataclass(frozen=True)
-class Walker:
+class PathFollower:
     """Steps along a path; lengths are root mean squares over the ``measured`` unknowns (m,)."""
 
     newton: Newton
@@ -135,23 +137,23 @@ class Walker:
     longest: float
 
     @staticmethod
-    def of(newton: Newton, longest_step: float) -> Walker:
-        """A walker on a problem, with its longest step in body diagonals."""
+    def of(newton: Newton, longest_step: float) -> PathFollower:
+        """For a problem, with its longest step in body diagonals."""
         numbering = newton.assembly.numbering
         measured = np.ones(numbering.size, bool)
         measured[numbering.pressure] = False
-        return Walker(newton, measured, longest_step * newton.problem.mesh.size)
+        return PathFollower(newton, measured, longest_step * newton.problem.mesh.size)
 
     def start(self, state: State, load: float, first_step: float) -> Arc:
         """A state as the start, with the load going up by ``first_step`` next."""
-        return self._arc(station(self.newton, state, load), None, first_step)
+        return self._arc(equilibrium_point(self.newton, state, load), None, first_step)
 
     def along(self, arc: Arc) -> Iterator[tuple[Arc, Limit | None]]:
         """The path from ``arc`` on, with the limits on it; ends where no step succeeds."""
         yield arc, None
-        while not arc.station.failure:
+        while not arc.equilibrium.failure:
             follows = self._next(arc)
-            if follows.station.failure:
+            if follows.equilibrium.failure:
                 return
             between = self._limit_between(arc, follows)
             if between is not None:
@@ -160,8 +162,8 @@ class Walker:
             arc = follows
 
     def point(self, arc: Arc) -> PathPoint:
-        """Describe a station."""
-        there = arc.station
+        """Describe an equilibrium."""
+        there = arc.equilibrium
         return self.newton.point(there.state, there.load, there.iterations, there.stable)
 
     def _next(self, arc: Arc) -> Arc:
@@ -169,7 +171,7 @@ class Walker:
         length = arc.length
         for _ in range(MOST_CUTS):
             follows = self._step(arc, length)
-            if not follows.station.failure:
+            if not follows.equilibrium.failure:
                 break
             self.newton.effort.refused_steps += 1
             length *= self.newton.options.cut
@@ -177,9 +179,11 @@ class Walker:
 
     def _step(self, arc: Arc, length: float) -> Arc:
         """One step of a given length; it fails too where the path would turn sharply."""
-        newton, here = self.newton, arc.station
+        newton, here = self.newton, arc.equilibrium
         load = here.load + arc.slope * length
-        guess = newton.led(newton.advance(here.state, newton.expanded(arc.tangent), length), load)
+        direction = newton.system.expanded(arc.tangent)
+        moved = newton.kinematics.advanced(here.state, direction, length)
+        guess = newton.kinematics.with_motions(moved, load)
 
         def back_to_the_plane(_s: State, _e: Equilibrium, r: Reals, d: Reals) -> float:
             return -self._product(arc.tangent, r) / self._product(arc.tangent, d)
@@ -188,11 +192,11 @@ class Walker:
         growth = GROWTH if found.iterations <= FEW_ITERATIONS else 1.0
         follows = replace(self._arc(found, arc.tangent, growth * length), came=length)
         if not found.failure and self._product(follows.tangent, arc.tangent) < SHARPEST_TURN:
-            return Arc(Station(found.state, found.load, failure="a sharp turn"), *_NOWHERE)
+            return Arc(EquilibriumPoint(found.state, found.load, failure="a sharp turn"), *_NOWHERE)
         return follows
 
-    def _arc(self, found: Station, before: Reals | None, length: float) -> Arc:
-        """A station with its tangent, forward as seen from the tangent ``before``.
+    def _arc(self, found: EquilibriumPoint, before: Reals | None, length: float) -> Arc:
+        """An equilibrium with its tangent, forward as seen from the tangent ``before``.
 
         Without one the load goes up, and ``length`` is its step.
         """
@@ -211,7 +215,7 @@ class Walker:
             turn = self._turn_between(a, b)
             kind: Literal["maximum", "minimum"] = "maximum" if a.slope > 0 else "minimum"
             return turn, Limit(kind, self.point(turn))
-        if a.station.unstable_modes != b.station.unstable_modes:
+        if a.equilibrium.unstable_modes != b.equilibrium.unstable_modes:
             change = self._change_between(a, b)
             return change, Limit("bifurcation", self.point(change))
         return None
@@ -221,9 +225,9 @@ class Walker:
         low, high, found = 0.0, b.came, b
         for _ in range(HALVINGS):
             middle = self._step(a, (low + high) / 2)
-            if middle.station.unstable_modes == a.station.unstable_modes:
+            if middle.equilibrium.unstable_modes == a.equilibrium.unstable_modes:
                 low = (low + high) / 2
-            elif not middle.station.failure:
+            elif not middle.equilibrium.failure:
                 high, found = (low + high) / 2, middle
         return found
 
@@ -234,7 +238,7 @@ class Walker:
             share = rising / (rising - falling)
             length = low + min(max(share, 0.05), 0.95) * (high - low)
             tried = self._step(a, length)
-            if tried.station.failure:
+            if tried.equilibrium.failure:
                 break
             best = tried if abs(tried.slope) < abs(best.slope) else best
             if abs(tried.slope) < FLAT * abs(a.slope):

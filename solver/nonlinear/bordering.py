@@ -6,8 +6,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TypeAlias
 
-import numpy as np
-
 from solver.arrays import Reals
 from solver.assembly.assembly import Equilibrium
 from solver.assembly.state import State
@@ -23,7 +21,7 @@ respect to the load; the whole correction is r + change * d.
 
 
 @dataclass(frozen=True)
-class Station:
+class EquilibriumPoint:
     """An equilibrium on a path, stable or not.
 
     ``direction`` (m,): its derivative with respect to the load. ``force`` (m,): that of the
@@ -46,7 +44,7 @@ class Station:
         return None if self.unstable_modes is None else self.unstable_modes == 0
 
 
-def corrected(newton: Newton, guess: State, load: float, row: Row) -> Station:
+def corrected(newton: Newton, guess: State, load: float, row: Row) -> EquilibriumPoint:
     """Equilibrium near ``guess`` and ``load`` that satisfies ``row``.
 
     Block elimination: two right-hand sides for each factorization, which need not be that of a
@@ -56,30 +54,39 @@ def corrected(newton: Newton, guess: State, load: float, row: Row) -> Station:
     for iteration in range(1, newton.options.maximum_iterations + 1):
         equilibrium, failure = _linearised(newton, state, load)
         if failure:
-            return Station(guess, load, iteration, failure=failure)
-        r = newton.matrix.solve(-equilibrium.residual)
-        d = newton.matrix.solve(-newton.rate(state, load, equilibrium))
+            return EquilibriumPoint(guess, load, iteration, failure=failure)
+        r = newton.system.solve(-equilibrium.residual)
+        d = newton.system.solve(-newton.rate(state, load, equilibrium))
         change = float(row(state, equilibrium, r, d))
-        increment = newton.expanded(r + change * d)
-        correction = float(np.abs(newton.linear(state, increment)).max())
+        increment = newton.system.expanded(r + change * d)
+        correction = newton.kinematics.longest(state, increment)
         if not correction < DIVERGED * size:
-            return Station(guess, load, iteration, failure="the corrections grew without bound")
+            return EquilibriumPoint(
+                guess, load, iteration, failure="the corrections grew without bound"
+            )
         load += change
-        state = newton.led(newton.advance(state, increment), load)
+        moved = newton.kinematics.advanced(state, increment)
+        state = newton.kinematics.with_motions(moved, load)
         newton.effort.iterations += 1
         newton.notify("iteration", load, state, iteration, correction)
         if correction <= newton.options.tolerance * size:
-            return station(newton, state, load, iteration)
-    return Station(guess, load, iteration, failure=f"no convergence in {iteration} iterations")
+            return equilibrium_point(newton, state, load, iteration)
+    return EquilibriumPoint(
+        guess, load, iteration, failure=f"no convergence in {iteration} iterations"
+    )
 
 
-def station(newton: Newton, state: State, load: float, iterations: int = 0) -> Station:
+def equilibrium_point(
+    newton: Newton, state: State, load: float, iterations: int = 0
+) -> EquilibriumPoint:
     """What the tangent at an equilibrium says: where the path goes on, and whether it is stable."""
     equilibrium, failure = _linearised(newton, state, load)
     if failure:
-        return Station(state, load, iterations, failure=failure)
-    direction = newton.matrix.solve(-newton.rate(state, load, equilibrium))
-    return Station(state, load, iterations, direction, equilibrium.force, newton.unstable_modes)
+        return EquilibriumPoint(state, load, iterations, failure=failure)
+    direction = newton.system.solve(-newton.rate(state, load, equilibrium))
+    return EquilibriumPoint(
+        state, load, iterations, direction, equilibrium.force, newton.system.unstable_modes
+    )
 
 
 def _linearised(newton: Newton, state: State, load: float) -> tuple[Equilibrium, str]:

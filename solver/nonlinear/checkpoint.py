@@ -1,4 +1,4 @@
-"""A walk over the load as it stood after a step: enough to go on with, to the last bit."""
+"""A solve as it stood after a load step: enough to go on from there, to the last bit."""
 
 from __future__ import annotations
 
@@ -16,15 +16,24 @@ from solver.errors import SolverError
 from solver.results.solution import PathPoint
 
 
+@dataclass
+class Effort:
+    """Running counts of a solve."""
+
+    iterations: int = 0
+    factorizations: int = 0
+    load_steps: int = 0
+    refused_steps: int = 0
+
+
 @dataclass(frozen=True)
 class Checkpoint:
     """A load step that was reached, and what the next one depends on.
 
     ``reached`` is in equilibrium at the fraction ``load`` of the asked load, the next step is
     ``step`` long in the ``direction`` of the equilibrium's derivative with respect to the load
-    (zero at the end of the walk).
-    ``points``: the path so far; ``effort``: iterations, factorizations, load steps and refused
-    steps so far.
+    (zero at the whole load).
+    ``points``: the path so far; ``effort``: the counts so far, in the order of ``Effort``.
     """
 
     reached: State

@@ -1,21 +1,41 @@
-"""The way to a load: adaptive steps from zero, or a start at full load, along stable states."""
+"""Load steps: adaptive from zero, or a start at the whole load, along stable equilibria."""
 
 from __future__ import annotations
 
-import math
 import time
 from collections.abc import Sequence
 from dataclasses import astuple, dataclass, replace
+from typing import TypeAlias
 
 import numpy as np
 
 from solver.arrays import Reals
 from solver.assembly.state import State
 from solver.errors import SolverError
-from solver.nonlinear.checkpoint import Checkpoint
-from solver.nonlinear.newton import FIRST_STEP, Attempt, Effort, Listener, Newton, SolverOptions
+from solver.nonlinear.checkpoint import Checkpoint, Effort
+from solver.nonlinear.events import Listener
+from solver.nonlinear.newton import Attempt, Newton
+from solver.nonlinear.options import FIRST_STEP, SolverOptions
+from solver.nonlinear.step_control import Segment, StepControl, follow
 from solver.problem.problem import Problem
 from solver.results.solution import PathPoint, Solution
+
+Points: TypeAlias = tuple[PathPoint, ...]
+
+NEAR = 0.05
+"""A limit further ahead, in fractions of the load reached, is not what stopped a path."""
+
+STEPS_TO_A_LIMIT = 12
+"""Steps by arc length that may be spent on finding out what stopped a path."""
+
+SHORT = 0.03
+"""A step cut below this fraction of the load asks for the full tolerance."""
+
+LEAP = 4.0
+"""A state so many times further away than predicted lies on another branch."""
+
+NOTICEABLE = 0.02
+"""Fraction of the body's diagonal; no shorter distance is a leap."""
 
 
 def solve(
@@ -27,47 +47,98 @@ def solve(
     stops: Sequence[float] = (),
     resume: Checkpoint | None = None,
 ) -> Solution:
-    """Equilibrium of ``problem`` under ``pressure`` (MPa), walked from zero load.
+    """Equilibrium of ``problem`` under ``pressure``, reached from zero load.
 
-    Dead loads and prescribed motions of the problem grow along with the pressure.
-    With ``initial`` = (displacement (n, 3), hydrostatic pressure (v,)), for instance from
-    ``transfer``, Newton starts there at full load; should that fail, the load is walked
-    as usual. The path has a point at each of the pressures ``stops`` (MPa; fractions of the load
-    where there is no pressure) before ``pressure``: passed on the way up, or visited on the way
-    back down after a start at full load.
-    With ``resume``, a checkpoint that a listener was given on an earlier run of the same problem,
-    pressure, options and stops, the walk goes on from there, to the same bits (unless the first run
-    found the checkpoint's state too poor to go on from).
-    A load that cannot be reached gives the last good state with ``converged`` False
-    and a ``message``, never a diverged state; if a limit point is why, ``limit`` says at what
-    pressure. Raises ``SolverError`` for bad input.
+    Dead loads and prescribed motions of the problem grow along with the pressure. A load that
+    cannot be reached gives the last good state with ``converged`` False and a ``message``, never a
+    diverged state; if a limit point is why, ``limit`` says at what pressure.
+
+    Args:
+        problem: body, supports and loads.
+        pressure: on the pressurised surfaces, MPa.
+        options: sizes of steps and tolerances.
+        listener: is called with an ``Event`` after each correction and each load step.
+        initial: displacement and hydrostatic pressure, for instance from ``transfer``. Newton's
+            method starts there at the whole load; should that fail, the load is applied in steps.
+
+            *Shape:* (n, 3) in mm, (v,) in MPa.
+        stops: pressures in MPa (fractions of the load where there is no pressure) before
+            ``pressure`` at which the path has a point: passed on the way up, or visited on the way
+            back down after a start at the whole load.
+        resume: a checkpoint that a listener was given on an earlier run of the same problem,
+            pressure, options and stops. The path goes on from there, to the same bits (unless the
+            first run found the checkpoint's state too poor to go on from).
+
+    Returns:
+        The last good equilibrium, with the path to it.
+
+    Raises:
+        SolverError: input that is no problem, or numbers that are not finite.
     """
     if not np.isfinite(pressure):
         raise SolverError(f"pressure must be a finite number of MPa, got {pressure}.")
     start = time.perf_counter()
     loads = _stops(stops, float(pressure))
     newton = Newton(problem, float(pressure), options or SolverOptions(), listener)
-    walk = None
+    path = None
     if resume is not None:
-        walk = _walk(newton, loads, *_resumed(newton, resume))
+        path = _climbed(newton, loads, *_resumed(newton, resume))
     elif initial is not None:
-        walk = _jump(newton, _start(newton, *initial), loads)
-    if walk is None:
-        walk = _walk(newton, loads, *_from_zero(newton))
-    return solution_of(newton, walk, time.perf_counter() - start)
+        path = _from_the_top(newton, newton.kinematics.start(*initial), loads)
+    if path is None:
+        path = _climbed(newton, loads, *_from_zero(newton))
+    return solution_of(newton, path, time.perf_counter() - start)
 
 
 @dataclass(frozen=True)
-class Walk:
-    """How far the load came: the last good ``state``, the ``path`` to it, why it stopped.
+class Path:
+    """How far the load came: the last good ``state``, the ``points`` up to it, why it stopped.
 
     ``limit``: the load of the limit point that was in the way.
     """
 
     state: State
-    path: tuple[PathPoint, ...]
+    points: Points
     failure: str = ""
     limit: float | None = None
+
+
+@dataclass(frozen=True)
+class LoadStepper:
+    """Steps of the load for ``follow``; ``end``: where they lead, ``before``: the path so far."""
+
+    newton: Newton
+    end: float
+    before: Points = ()
+
+    def attempt(self, segment: Segment[Attempt], target: float) -> Attempt:
+        """One step from a state to a load, counted, and reported if it is refused."""
+        newton, reached, load = self.newton, segment.reached, segment.position
+        if reached.direction is None:
+            reached = newton.departing(reached.state, load)
+        exact = target == self.end or abs(target - load) < SHORT
+        tolerance = newton.options.tolerance if exact else newton.loose_tolerance
+        guess = newton.predicted(reached, load, target)
+        attempt = newton.correct(guess, target, tolerance, onward=target != 1.0)
+        failure = attempt.failure or _leapt(newton, reached.state, guess, attempt.state)
+        if failure:
+            newton.effort.refused_steps += 1
+            newton.notify("refused", target, reached.state, attempt.iterations, np.inf)
+            return replace(attempt, failure=failure)
+        newton.effort.load_steps += 1
+        return attempt
+
+    def accepted(self, segment: Segment[Attempt]) -> Segment[Attempt]:
+        """With a point, and a checkpoint for the listener."""
+        newton, reached, load = self.newton, segment.reached, segment.position
+        point = newton.point(reached.state, load, reached.iterations, newton.system.stable)
+        segment = replace(segment, points=(*segment.points, point))
+        _report(newton, segment, (*self.before, *segment.points))
+        return segment
+
+    def refused(self, segment: Segment[Attempt], refusals: int) -> Segment[Attempt]:
+        """After two refusals the state was not good enough, or the direction from it."""
+        return _settled(self.newton, segment) if refusals == 2 else segment
 
 
 def _stops(pressures: Sequence[float], pressure: float) -> tuple[float, ...]:
@@ -79,42 +150,29 @@ def _stops(pressures: Sequence[float], pressure: float) -> tuple[float, ...]:
     return tuple(load for load in loads if load < 1 - 1e-12)
 
 
-def _jump(newton: Newton, initial: State, stops: tuple[float, ...]) -> Walk | None:
-    """Newton at full load from a given state, then back through ``stops``; None if that fails."""
+def _from_the_top(newton: Newton, initial: State, stops: tuple[float, ...]) -> Path | None:
+    """Newton at the whole load, then back through ``stops``; None if that fails."""
     attempt = newton.correct(initial, 1.0, newton.options.tolerance)
     if attempt.failure:
         newton.effort.refused_steps += 1
         newton.notify("refused", 1.0, initial, attempt.iterations, np.inf)
         return None
     newton.effort.load_steps += 1
-    points: tuple[PathPoint, ...] = (
-        newton.point(attempt.state, 1.0, attempt.iterations, newton.stable),
-    )
-    leg = Leg(attempt, 1.0, 1.0)
+    points: Points = (newton.point(attempt.state, 1.0, attempt.iterations, newton.system.stable),)
+    segment = Segment(attempt, 1.0, 1.0)
     for stop in reversed(stops):
-        leg = _walk_to(newton, stop, leg)
-        if leg.failure:
+        segment = _followed(newton, replace(segment, points=()), stop)
+        if segment.failure:
             return None
-        points = (*reversed(leg.points), *points)
-    return Walk(attempt.state, (newton.point(State.zero(newton.problem), 0.0, 0, True), *points))
+        points = (*reversed(segment.points), *points)
+    return Path(attempt.state, (newton.point(State.zero(newton.problem), 0.0, 0, True), *points))
 
 
-@dataclass(frozen=True)
-class Leg:
-    """Part of a walk: where it ended, the size of the next step, points on it, why it stopped."""
-
-    reached: Attempt
-    load: float
-    step: float
-    points: tuple[PathPoint, ...] = ()
-    failure: str = ""
-
-
-def _from_zero(newton: Newton) -> tuple[Leg, tuple[PathPoint, ...]]:
+def _from_zero(newton: Newton) -> tuple[Segment[Attempt], Points]:
     """Before the first step: the unloaded body."""
-    start = _departing(newton, State.zero(newton.problem), 0.0)
-    path = (newton.point(start.state, 0.0, 0, newton.stable),)
-    return Leg(start, 0.0, _first_step(newton, start)), path
+    start = newton.departing(State.zero(newton.problem), 0.0)
+    points = (newton.point(start.state, 0.0, 0, newton.system.stable),)
+    return Segment(start, 0.0, _first_step(newton, start)), points
 
 
 def _first_step(newton: Newton, start: Attempt) -> float:
@@ -122,134 +180,74 @@ def _first_step(newton: Newton, start: Attempt) -> float:
     if newton.options.first_step is not None or not newton.slender:
         return newton.options.first_step or FIRST_STEP
     assert start.direction is not None
-    speed = float(np.abs(newton.linear(start.state, start.direction)).max())
+    speed = newton.kinematics.longest(start.state, start.direction)
     return min(1.0, newton.problem.mesh.size / speed) if speed else 1.0
 
 
-def _departing(newton: Newton, state: State, load: float) -> Attempt:
-    """A state in equilibrium with the direction in which the walk goes on from it."""
-    equilibrium = newton.evaluate(state, load)
-    newton.factorize(equilibrium)
-    return Attempt(state, 0, direction=newton.direction(state, load, equilibrium))
-
-
-def _resumed(newton: Newton, checkpoint: Checkpoint) -> tuple[Leg, tuple[PathPoint, ...]]:
+def _resumed(newton: Newton, checkpoint: Checkpoint) -> tuple[Segment[Attempt], Points]:
     """After the step of a checkpoint."""
     reached = checkpoint.reached
-    _check_shapes(newton, reached.displacement, reached.hydrostatic_pressure)
+    newton.kinematics.check_shapes(reached.displacement, reached.hydrostatic_pressure)
     newton.effort = Effort(*checkpoint.effort)
     attempt = Attempt(reached, 0, direction=checkpoint.direction)
-    return Leg(attempt, checkpoint.load, checkpoint.step), checkpoint.points
+    return Segment(attempt, checkpoint.load, checkpoint.step), checkpoint.points
 
 
-def _walk(newton: Newton, stops: tuple[float, ...], leg: Leg, points: Sequence[PathPoint]) -> Walk:
-    """Up from a leg's end through ``stops``; ``points``: the path so far."""
-    path = tuple(points)
-    for stop in (*(stop for stop in stops if stop > leg.load), 1.0):
-        leg = _walk_to(newton, stop, leg, path)
-        path += leg.points
-        if leg.failure:
-            return _stopped(newton, leg, path)
-    return Walk(leg.reached.state, path)
+def _climbed(
+    newton: Newton, stops: tuple[float, ...], segment: Segment[Attempt], points: Points
+) -> Path:
+    """Up from a segment's end through ``stops``; ``points``: the path so far."""
+    for stop in (*(stop for stop in stops if stop > segment.position), 1.0):
+        segment = _followed(newton, replace(segment, points=()), stop, points)
+        points += segment.points
+        if segment.failure:
+            return _stopped(newton, segment, points)
+    return Path(segment.reached.state, points)
 
 
-def _stopped(newton: Newton, leg: Leg, path: tuple[PathPoint, ...]) -> Walk:
-    """A walk that came no further, and the limit point that was in the way if there is one.
+def _followed(
+    newton: Newton, segment: Segment[Attempt], end: float, before: Points = ()
+) -> Segment[Attempt]:
+    """Adaptive load steps to ``end``: predict along the tangent, correct, grow or cut the step."""
+    options = newton.options
+    control = StepControl(options.growth, options.cut, options.smallest_step)
+    return follow(LoadStepper(newton, end, before), segment, end, control)
+
+
+def _stopped(newton: Newton, segment: Segment[Attempt], points: Points) -> Path:
+    """A path that came no further, and the limit point that was in the way if there is one.
 
     Its last state may have been good enough for going on only: it is corrected once more.
     """
     from solver.nonlinear.arc_length import limit_ahead
 
-    last = newton.correct(leg.reached.state, leg.load, newton.options.tolerance)
+    load = segment.position
+    last = newton.correct(segment.reached.state, load, newton.options.tolerance)
     if last.failure:  # no state on the way bears the full tolerance
-        return Walk(State.zero(newton.problem), path[:1], leg.failure)
-    state, path = last.state, _corrected(newton, last, leg.load, path)
-    limit = limit_ahead(newton, state, leg.load, STEPS_TO_A_LIMIT)
-    if limit is None or not -1e-6 <= limit.point.load - leg.load <= NEAR * leg.load:
-        return Walk(state, path, leg.failure)
-    return Walk(state, path, limit.describe(newton.pressure), limit.point.load)
+        return Path(State.zero(newton.problem), points[:1], segment.failure)
+    state, points = last.state, _corrected(newton, last, load, points)
+    limit = limit_ahead(newton, state, load, STEPS_TO_A_LIMIT)
+    if limit is None or not -1e-6 <= limit.point.load - load <= NEAR * load:
+        return Path(state, points, segment.failure)
+    return Path(state, points, limit.describe(newton.pressure), limit.point.load)
 
 
-NEAR = 0.05
-"""A limit further ahead, in fractions of the load reached, is not what stopped a walk."""
-
-STEPS_TO_A_LIMIT = 12
-"""Steps by arc length that may be spent on finding out what stopped a walk."""
-
-
-def _walk_to(newton: Newton, end: float, leg: Leg, path: tuple[PathPoint, ...] = ()) -> Leg:
-    """Adaptive load steps, up or down: predict along the tangent, correct, grow or cut the step.
-
-    ``path``: what came before, for checkpoints.
-    """
-    options = newton.options
-    reached, load, step = leg.reached, leg.load, leg.step
-    points: tuple[PathPoint, ...] = ()
-    refusals = 0
-    while load != end:
-        last = abs(end - load) <= step * (1 + 1e-9)
-        target = end if last else load + math.copysign(step, end - load)
-        attempt = _step(newton, reached, load, target, last)
-        if attempt.failure:
-            step = options.cut * abs(target - load)
-            if step < options.smallest_step:
-                return Leg(reached, load, step, points, attempt.failure)
-            refusals += 1
-            if refusals == 2:  # the state was not good enough, or the direction from it
-                reached, points = _settled(newton, reached, load, points)
-            continue
-        step, refusals = max(step, options.growth * abs(target - load)), 0
-        reached, load = attempt, target
-        points += (newton.point(attempt.state, load, attempt.iterations, newton.stable),)
-        _report(newton, attempt, load, step, (*path, *points))
-    return Leg(reached, load, step, points)
-
-
-def _step(newton: Newton, reached: Attempt, load: float, target: float, last: bool) -> Attempt:
-    """One step from a state to a load, counted and told of if it is refused."""
-    if reached.direction is None:
-        reached = _departing(newton, reached.state, load)
-    exact = last or abs(target - load) < SHORT
-    tolerance = newton.options.tolerance if exact else newton.loose_tolerance
-    guess = newton.predicted(reached, load, target)
-    attempt = newton.correct(guess, target, tolerance, onward=target != 1.0)
-    failure = attempt.failure or _leapt(newton, reached.state, guess, attempt.state)
-    if failure:
-        newton.effort.refused_steps += 1
-        newton.notify("refused", target, reached.state, attempt.iterations, np.inf)
-        return replace(attempt, failure=failure)
-    newton.effort.load_steps += 1
-    return attempt
-
-
-def _settled(
-    newton: Newton, reached: Attempt, load: float, points: tuple[PathPoint, ...]
-) -> tuple[Attempt, tuple[PathPoint, ...]]:
-    """A state corrected to the full tolerance, if it bears that, with the points up to it."""
-    better = newton.correct(reached.state, load, newton.options.tolerance, onward=True)
+def _settled(newton: Newton, segment: Segment[Attempt]) -> Segment[Attempt]:
+    """Its end corrected to the full tolerance, if it bears that."""
+    state, load = segment.reached.state, segment.position
+    better = newton.correct(state, load, newton.options.tolerance, onward=True)
     if better.failure:
-        return reached, points
-    return better, _corrected(newton, better, load, points)
+        return segment
+    points = _corrected(newton, better, load, segment.points)
+    return replace(segment, reached=better, points=points)
 
 
-def _corrected(
-    newton: Newton, better: Attempt, load: float, points: tuple[PathPoint, ...]
-) -> tuple[PathPoint, ...]:
+def _corrected(newton: Newton, better: Attempt, load: float, points: Points) -> Points:
     """Points of which the last one is that of a better state at the same load."""
     if not points:
         return points
     spent = points[-1].iterations + better.iterations
-    return (*points[:-1], newton.point(better.state, load, spent, newton.stable))
-
-
-SHORT = 0.03
-"""A step cut below this fraction of the load asks for the full tolerance."""
-
-LEAP = 4.0
-"""A state so many times further away than predicted lies on another branch."""
-
-NOTICEABLE = 0.02
-"""Fraction of the body's diagonal; no shorter way is a leap."""
+    return (*points[:-1], newton.point(better.state, load, spent, newton.system.stable))
 
 
 def _leapt(newton: Newton, before: State, predicted: State, found: State) -> str:
@@ -262,63 +260,38 @@ def _leapt(newton: Newton, before: State, predicted: State, found: State) -> str
     return ""
 
 
-def _report(
-    newton: Newton, reached: Attempt, load: float, step: float, path: tuple[PathPoint, ...]
-) -> None:
-    """Tell the listener of a step, with a checkpoint to go on from."""
+def _report(newton: Newton, segment: Segment[Attempt], points: Points) -> None:
+    """An event for a step, with a checkpoint to go on from."""
     if newton.listener is None:
         return
+    reached, load = segment.reached, segment.position
     direction = reached.direction or State.zero(newton.problem)  # none at the whole load
     effort = astuple(newton.effort)
-    checkpoint = Checkpoint(reached.state, load, step, direction, path, effort)
-    newton.notify("step", load, reached.state, path[-1].iterations, 0.0, checkpoint)
+    checkpoint = Checkpoint(reached.state, load, segment.step, direction, points, effort)
+    newton.notify("step", load, reached.state, points[-1].iterations, 0.0, checkpoint)
 
 
-def _start(newton: Newton, displacement: Reals, pressure: Reals) -> State:
-    """A given state as a start; ``SolverError`` if its shapes do not fit the mesh."""
-    _check_shapes(newton, displacement, pressure)
-    state = newton.placed(State(displacement, pressure), 1.0)
-    plane = newton.assembly.plane
-    return state if plane is None else plane.fitted(state)
-
-
-def _check_shapes(newton: Newton, displacement: Reals, pressure: Reals) -> None:
-    expected = State.zero(newton.problem)
-    for name, given, wanted in (
-        ("displacement", displacement, expected.displacement),
-        ("hydrostatic pressure", pressure, expected.hydrostatic_pressure),
-    ):
-        if np.shape(given) != wanted.shape:
-            raise SolverError(
-                f"initial: {name} must have the shape {wanted.shape}, got {np.shape(given)}."
-            )
-        if not np.isfinite(given).all():
-            raise SolverError(f"initial: {name} must be finite numbers, found NaN or infinity.")
-
-
-def solution_of(newton: Newton, walk: Walk, seconds: float) -> Solution:
-    """Pack up."""
-    end = walk.path[-1]
+def solution_of(newton: Newton, path: Path, seconds: float) -> Solution:
+    """The solution at a path's end."""
+    end = path.points[-1]
     share = _share(newton.pressure, end.load)
-    message = f"stopped at {share}: {walk.failure}." if walk.failure else f"reached {share}."
-    effort = newton.effort
-    limit = walk.limit
+    limit = path.limit
     return Solution(
         problem=newton.problem,
         pressure=end.pressure,
-        displacement=walk.state.displacement,
-        hydrostatic_pressure=walk.state.hydrostatic_pressure,
-        path=walk.path,
-        converged=not walk.failure,
-        message=message,
-        newton_iterations=effort.iterations,
-        factorizations=effort.factorizations,
-        load_steps=effort.load_steps,
-        refused_steps=effort.refused_steps,
-        linear_solver=newton.matrix.name,
-        negative_pivots=newton.matrix.negative_pivots,
+        displacement=path.state.displacement,
+        hydrostatic_pressure=path.state.hydrostatic_pressure,
+        path=path.points,
+        converged=not path.failure,
+        message=f"stopped at {share}: {path.failure}." if path.failure else f"reached {share}.",
+        newton_iterations=newton.effort.iterations,
+        factorizations=newton.effort.factorizations,
+        load_steps=newton.effort.load_steps,
+        refused_steps=newton.effort.refused_steps,
+        linear_solver=newton.system.name,
+        negative_pivots=newton.system.negative_pivots,
         seconds=seconds,
-        plane=(float(walk.state.plane[0]), float(walk.state.plane[1])),
+        plane=(float(path.state.plane[0]), float(path.state.plane[1])),
         load=end.load,
         limit=limit if limit is None or not newton.pressure else limit * newton.pressure,
     )

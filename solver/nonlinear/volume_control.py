@@ -6,7 +6,6 @@ volume still does.
 
 from __future__ import annotations
 
-import math
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -18,9 +17,12 @@ from solver.assembly.assembly import Equilibrium
 from solver.assembly.pressure import enclosed_volume
 from solver.assembly.state import State
 from solver.errors import SolverError
-from solver.nonlinear.bordering import Station, corrected, station
-from solver.nonlinear.load_stepping import Walk, solution_of
-from solver.nonlinear.newton import FIRST_STEP, Listener, Newton, SolverOptions
+from solver.nonlinear.bordering import EquilibriumPoint, corrected, equilibrium_point
+from solver.nonlinear.events import Listener
+from solver.nonlinear.load_stepping import Path, solution_of
+from solver.nonlinear.newton import Newton
+from solver.nonlinear.options import FIRST_STEP, SolverOptions
+from solver.nonlinear.step_control import Segment, StepControl, follow
 from solver.problem.problem import Problem
 from solver.results.solution import PathPoint, Solution
 
@@ -44,70 +46,78 @@ def inflate(
     if problem.loads or problem.supports.prescribed or not problem.pressurised:
         raise SolverError("inflate: the problem's only load must be the pressure in a cavity.")
     newton = Newton(problem, 1.0, options or SolverOptions(), listener)
-    leg = _Leg(station(newton, State.zero(problem), 0.0), _volume(newton, State.zero(problem)))
-    path: tuple[PathPoint, ...] = (newton.point(leg.reached.state, 0.0, 0, True),)
-    leg = replace(leg, step=(newton.options.first_step or FIRST_STEP) * abs(volume - leg.volume))
-    for target in _targets(leg.volume, volume, stops):
-        leg = _to(newton, target, leg)
-        path += leg.points
-        if leg.failure:
+    segment, points = _followed(newton, volume, stops)
+    end, failure = segment.reached, segment.failure
+    solution = solution_of(newton, Path(end.state, points, failure), 0.0)
+    share = f"{segment.position:.6g} of {volume:.6g} mm³, at {end.load:.4g} MPa"
+    message = f"stopped at {share}: {failure}" if failure else f"reached {share}"
+    message += _stability(points)
+    return replace(solution, message=message, load=1.0, seconds=time.perf_counter() - start)
+
+
+def _followed(
+    newton: Newton, volume: float, stops: Sequence[float]
+) -> tuple[Segment[EquilibriumPoint], tuple[PathPoint, ...]]:
+    """From the volume at rest through ``stops`` to ``volume``: the last segment, and the path."""
+    options, still = newton.options, State.zero(newton.problem)
+    rest = _volume(newton, still)
+    points: tuple[PathPoint, ...] = (newton.point(still, 0.0, 0, True),)
+    step = (options.first_step or FIRST_STEP) * abs(volume - rest)
+    segment = Segment(equilibrium_point(newton, still, 0.0), rest, step)
+    for target in _targets(rest, volume, stops):
+        smallest = options.smallest_step * abs(target - segment.position)
+        control = StepControl(options.growth, options.cut, smallest)
+        segment = follow(VolumeStepper(newton), replace(segment, points=()), target, control)
+        points += segment.points
+        if segment.failure:
             break
-    solution = solution_of(newton, Walk(leg.reached.state, path, leg.failure), 0.0)
-    share = f"{leg.volume:.6g} of {volume:.6g} mm³, at {leg.reached.load:.4g} MPa"
-    told = f"stopped at {share}: {leg.failure}" if leg.failure else f"reached {share}"
-    told += _stability(path)
-    return replace(solution, message=told, load=1.0, seconds=time.perf_counter() - start)
+    return segment, points
 
 
-def _stability(path: tuple[PathPoint, ...]) -> str:
+def _stability(points: tuple[PathPoint, ...]) -> str:
     """Up to where the body would have stayed under a pressure that is held."""
-    lost = next((number for number, point in enumerate(path) if point.stable is False), None)
+    lost = next((number for number, point in enumerate(points) if point.stable is False), None)
     if lost is None:
         return "."
-    return f"; a held pressure would have lost it beyond {path[lost - 1].pressure:.4g} MPa."
+    return f"; a held pressure would have lost it beyond {points[lost - 1].pressure:.4g} MPa."
 
 
 @dataclass(frozen=True)
-class _Leg:
-    """Part of a way: the ``volume`` (mm^3) reached, the next step, points on it, why it stopped."""
+class VolumeStepper:
+    """Steps of the volume (mm^3) for ``follow``."""
 
-    reached: Station
-    volume: float
-    step: float = 0.0
-    points: tuple[PathPoint, ...] = ()
-    failure: str = ""
+    newton: Newton
 
-
-def _to(newton: Newton, target: float, leg: _Leg) -> _Leg:
-    """Adaptive steps of the volume to ``target``: predict, correct, grow or cut the step."""
-    options, smallest = newton.options, newton.options.smallest_step * abs(target - leg.volume)
-    reached, volume, step = leg.reached, leg.volume, leg.step
-    points: tuple[PathPoint, ...] = ()
-    while volume != target:
-        last = abs(target - volume) <= step * (1 + 1e-9)
-        wanted = target if last else volume + math.copysign(step, target - volume)
-        found = _step(newton, reached, volume, wanted)
+    def attempt(self, segment: Segment[EquilibriumPoint], target: float) -> EquilibriumPoint:
+        """The equilibrium with the ``target`` volume, counted."""
+        found = _step(self.newton, segment.reached, segment.position, target)
         if found.failure:
-            newton.effort.refused_steps += 1
-            step = options.cut * abs(wanted - volume)
-            if step < smallest:
-                return _Leg(reached, volume, step, points, found.failure)
-            continue
-        step = max(step, options.growth * abs(wanted - volume))
-        reached, volume = found, wanted
-        newton.effort.load_steps += 1
-        points += (newton.point(found.state, found.load, found.iterations, found.stable),)
-    return _Leg(reached, volume, step, points)
+            self.newton.effort.refused_steps += 1
+        else:
+            self.newton.effort.load_steps += 1
+        return found
+
+    def accepted(self, segment: Segment[EquilibriumPoint]) -> Segment[EquilibriumPoint]:
+        """With a point."""
+        found = segment.reached
+        point = self.newton.point(found.state, found.load, found.iterations, found.stable)
+        return replace(segment, points=(*segment.points, point))
+
+    def refused(
+        self, segment: Segment[EquilibriumPoint], refusals: int
+    ) -> Segment[EquilibriumPoint]:
+        """As it is."""
+        return segment
 
 
-def _step(newton: Newton, here: Station, volume: float, wanted: float) -> Station:
+def _step(newton: Newton, here: EquilibriumPoint, volume: float, wanted: float) -> EquilibriumPoint:
     """From an equilibrium to the one with the ``wanted`` volume.
 
     The volume's derivative is minus ``force``: the residual is that of Pi - p V.
     """
     assert here.direction is not None and here.force is not None
     change = (volume - wanted) / float(here.force @ here.direction)
-    guess = newton.advance(here.state, newton.expanded(here.direction), change)
+    guess = newton.kinematics.advanced(here.state, newton.system.expanded(here.direction), change)
 
     def row(state: State, equilibrium: Equilibrium, r: Reals, d: Reals) -> float:
         excess = _volume(newton, state) - wanted

@@ -65,7 +65,7 @@ def contact_part(assembly: Assembly, state: State) -> tuple[Array, Array, Patter
     """Residual, tangent and its pattern of the contacts alone."""
     residual = np.zeros(assembly.numbering.size)
     values = np.zeros(len(assembly.pattern.indices))
-    return (residual, *assembly.touches.add(state, True, residual, values))
+    return (residual, *assembly.contacts.add(state, True, residual, values))
 
 
 def action(pattern: Pattern, values: Array, vector: Array) -> Array:
@@ -95,11 +95,11 @@ def test_residual_and_tangent_are_derivatives_of_the_contact_energy(
     assembly = Assembly(cell_problem(cell, ninjaflex, CONTACTS[name]))
     state = crossing_state(assembly)
     residual, values, pattern = contact_part(assembly, state)
-    assert assembly.touches.energy(state) > 0.1
+    assert assembly.contacts.energy(state) > 0.1
     for direction_name, direction in directions(assembly).items():
 
         def energy(step: float, direction: Array = direction) -> float:
-            return assembly.touches.energy(moved(assembly, state, step * direction))
+            return assembly.contacts.energy(moved(assembly, state, step * direction))
 
         def gradient(step: float, direction: Array = direction) -> Array:
             return contact_part(assembly, moved(assembly, state, step * direction))[0]

@@ -84,13 +84,13 @@ def test_pressure_on_a_closed_surface_has_no_resultant(box: BoxMesh, ninjaflex: 
     problem = Problem(mesh, ninjaflex, Supports(symmetry={"x0": 0, "y0": 1, "z0": 2}), ALL)
     assembly = Assembly(problem)
     x = mesh.nodes + np.random.default_rng(4).uniform(-0.1, 0.1, mesh.nodes.shape)
-    skin = assembly._skin._replace(
+    facets = assembly._facets._replace(
         dofs=np.arange(x.size, dtype=np.int32).reshape(-1, 3)[mesh.triangles(*ALL)].reshape(-1, 18)
     )
     from solver.kernels.pressure import assemble_pressure
 
     force = np.zeros(x.size)
-    assemble_pressure(skin, x - mesh.nodes, 1.0, False, force, np.zeros(0))
+    assemble_pressure(facets, x - mesh.nodes, 1.0, False, force, np.zeros(0))
     forces = force.reshape(-1, 3)
     assert forces.sum(axis=0) == pytest.approx(np.zeros(3), abs=1e-14)
     assert np.cross(x, forces).sum(axis=0) == pytest.approx(np.zeros(3), abs=1e-14)

@@ -1,0 +1,67 @@
+"""The tangent of a problem: factorized, solved with, and asked whether the body is stable."""
+
+from __future__ import annotations
+
+from solver.arrays import Reals
+from solver.assembly.assembly import Assembly, Equilibrium
+from solver.assembly.state import State
+from solver.linear.scaling import factors, scaled
+from solver.linear.solvers import linear_solver
+
+
+class LinearSystem:
+    """The factorization at hand of the tangent of an ``assembly``, by the solver ``name``."""
+
+    def __init__(self, assembly: Assembly, name: str) -> None:
+        self._numbering = assembly.numbering
+        self._pressures = len(assembly.problem.mesh.vertices)
+        self._solver = scaled(linear_solver(name), factors(assembly.problem, assembly.numbering))
+        self._solver.analyze(assembly.pattern)
+        self._analyzed = assembly.pattern
+
+    @property
+    def name(self) -> str:
+        """Name of the linear solver."""
+        return self._solver.name
+
+    @property
+    def negative_pivots(self) -> int | None:
+        """Negative eigenvalues of the last tangent; None where the solver cannot tell."""
+        return self._solver.negative_pivots
+
+    def factorize(self, equilibrium: Equilibrium) -> None:
+        """Factorize a tangent; contact may have changed its pattern. Raises ``SingularMatrix``."""
+        if equilibrium.pattern is not self._analyzed:
+            self._solver.analyze(equilibrium.pattern)
+            self._analyzed = equilibrium.pattern
+        self._solver.factorize(equilibrium.tangent)
+
+    def solve(self, right_hand_side: Reals) -> Reals:
+        """Solve for the unknowns (m,) with the factorization at hand."""
+        return self._solver.solve(right_hand_side)
+
+    def increment(self, right_hand_side: Reals) -> State:
+        """The same as an increment of the state."""
+        return self.expanded(self.solve(right_hand_side))
+
+    def expanded(self, vector: Reals) -> State:
+        """A vector over the unknowns (m,) as an increment of the state."""
+        return State(*self._numbering.expand(vector))
+
+    @property
+    def unstable_modes(self) -> int | None:
+        """Number of modes in which the body of the last tangent is unstable; None if unknown.
+
+        Negative eigenvalues beyond one for each pressure. Where only their parity is known, a
+        wrong one counts as one, and a right one as unknown.
+        """
+        negative = self._solver.negative_pivots
+        if negative is not None:
+            return abs(negative - self._pressures)
+        odd = self._solver.odd_negative
+        return None if odd is None or odd == (self._pressures % 2 == 1) else 1
+
+    @property
+    def stable(self) -> bool | None:
+        """Whether the last factorized tangent is that of a stable state; None if unknown."""
+        return None if self.unstable_modes is None else self.unstable_modes == 0

@@ -1,0 +1,92 @@
+"""Steps along a path towards an end: longer after a success, cut after a failure.
+
+For paths whose position is prescribed, a load or a volume. The arc-length method, which has no end
+to aim at, chooses its lengths by how fast Newton's method converges.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Generic, Protocol, TypeVar
+
+from solver.results.solution import PathPoint
+
+
+class Outcome(Protocol):
+    """Of a step: an equilibrium, or why there is none."""
+
+    @property
+    def failure(self) -> str: ...
+
+
+Found = TypeVar("Found", bound=Outcome)
+
+
+@dataclass(frozen=True)
+class Segment(Generic[Found]):
+    """A part of a path.
+
+    ``reached``: the equilibrium at its end, ``position``: the load or volume there, ``step``: how
+    far to try to go next, ``points``: those on it but its start, ``failure``: why it stopped.
+    """
+
+    reached: Found
+    position: float
+    step: float
+    points: tuple[PathPoint, ...] = ()
+    failure: str = ""
+
+
+class Stepper(Protocol[Found]):
+    """What takes the steps that ``follow`` asks for."""
+
+    def attempt(self, segment: Segment[Found], target: float) -> Found:
+        """The equilibrium at ``target``, or why there is none."""
+
+    def accepted(self, segment: Segment[Found]) -> Segment[Found]:
+        """The segment, one step longer, with a point for its end."""
+
+    def refused(self, segment: Segment[Found], refusals: int) -> Segment[Found]:
+        """The segment from whose end so many steps have failed, to try a shorter one from."""
+
+
+@dataclass(frozen=True)
+class StepControl:
+    """After a success a step may grow by ``growth``; after a failure it is ``cut`` times as long.
+
+    The path stops where a step would be shorter than ``smallest``.
+    """
+
+    growth: float
+    cut: float
+    smallest: float
+
+
+def follow(
+    stepper: Stepper[Found], segment: Segment[Found], end: float, control: StepControl
+) -> Segment[Found]:
+    """Step from a segment's end to ``end``, up or down, as far as steps succeed."""
+    refusals = 0
+    while segment.position != end:
+        target = _next_position(segment.position, end, segment.step)
+        taken = abs(target - segment.position)
+        found = stepper.attempt(segment, target)
+        if not found.failure:
+            step = max(segment.step, control.growth * taken)
+            segment = stepper.accepted(Segment(found, target, step, segment.points))
+            refusals = 0
+            continue
+        segment = replace(segment, step=control.cut * taken)
+        if segment.step < control.smallest:
+            return replace(segment, failure=found.failure)
+        refusals += 1
+        segment = stepper.refused(segment, refusals)
+    return segment
+
+
+def _next_position(position: float, end: float, step: float) -> float:
+    """``step`` further towards ``end``, or the end itself if it is no further away."""
+    if abs(end - position) <= step * (1 + 1e-9):
+        return end
+    return position + math.copysign(step, end - position)
