@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from solver.arrays import Reals
-from solver.linear.solvers import LinearSolver
+from solver.linear.interface import LinearSolver
 from solver.linear.sparsity import Pattern
 from solver.problem.problem import Problem
 from solver.problem.unknowns import Numbering

@@ -9,7 +9,7 @@ from typing import TypeAlias
 from solver.arrays import Reals
 from solver.assembly.assembly import Equilibrium
 from solver.assembly.state import State
-from solver.linear.solvers import SingularMatrix
+from solver.linear.interface import SingularMatrix
 from solver.nonlinear.newton import DIVERGED, Newton
 
 Row: TypeAlias = Callable[[State, Equilibrium, Reals, Reals], float]

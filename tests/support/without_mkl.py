@@ -7,11 +7,11 @@ from __future__ import annotations
 
 import ctypes
 
-import solver.linear.solvers
+import solver.linear.pardiso
 
 
 def _missing() -> ctypes.CDLL:
     raise ImportError("MKL is hidden.")
 
 
-solver.linear.solvers._load_mkl = _missing
+solver.linear.pardiso._load_mkl = _missing

@@ -11,7 +11,8 @@ from scipy.sparse import csr_array
 from solver import Mesh, Ogden, Problem, Supports
 from solver.assembly.assembly import Assembly
 from solver.assembly.state import State
-from solver.linear.solvers import LinearSolver, SingularMatrix, linear_solver
+from solver.linear.interface import LinearSolver, SingularMatrix
+from solver.linear.solvers import linear_solver
 from solver.linear.sparsity import upper_pattern
 
 
