@@ -2,12 +2,10 @@
 
 An incompressible material is stable at a state if every small change of strain costs work,
 dτ : dε > 0 with Kirchhoff stress τ and logarithmic strain ε. For changes along the principal axes
-this is Drucker's postulate as Abaqus checks it: ∂τᵢ/∂eⱼ = kᵢ δᵢⱼ + 4 W″ λᵢ² λⱼ² must be positive
-definite on changes that keep the volume, with kᵢ = Σ 2 μ exp(α eᵢ) and W″ of Yeoh's terms; without
-those, k₁ + k₂ + k₃ > 0 and k₁k₂ + k₂k₃ + k₃k₁ > 0. For all changes it is Hill's inequality: shear
-between axes i and j also needs (τᵢ − τⱼ)/(eᵢ − eⱼ) > 0 (Baker and Ericksen). Where every μ is
-positive and no Cᵢ₀ negative all of it holds at every strain; a set of mixed signs has to be asked
-state by state.
+this is Drucker's postulate as Abaqus checks it: ∂²W/∂eᵢ∂eⱼ must be positive definite on changes
+that keep the volume. For all changes it is Hill's inequality: shear between axes i and j also needs
+(τᵢ − τⱼ)/(eᵢ − eⱼ) > 0 (Baker and Ericksen). Ogden's law, where every μ is positive and no Cᵢ₀
+negative, keeps both at every strain; constants of mixed signs have to be asked state by state.
 
 Stable material may still neck: past a peak of the nominal stress a dead load finds no equilibrium.
 That peak is reported by itself.
@@ -16,12 +14,15 @@ That peak is reported by itself.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
-from solver.material.homogeneous import MODES, Mode, Reals, invariant_slopes
+from solver.arrays import Reals
+from solver.material.homogeneous import MODES, Mode
+from solver.material.law import Constants
+from solver.material.states import responses
 
 LOWEST, HIGHEST = 0.1, 10.0
 """Stretches between which is looked, along every test."""
@@ -73,50 +74,27 @@ class Stability:
         return self.shear_modulus > 0 and all(each.covers(low, high) for each in self.ranges)
 
 
-@dataclass(frozen=True, eq=False)
-class Constants:
-    """``mu`` (MPa) and ``alpha`` (terms,) of Ogden, ``higher`` = C₂₀, C₃₀, … (MPa) of Yeoh."""
-
-    mu: Reals
-    alpha: Reals
-    higher: Reals
-
-    @classmethod
-    def of(
-        cls,
-        mu: Sequence[float] | Reals,
-        alpha: Sequence[float] | Reals,
-        higher: Sequence[float] | Reals = (),
-    ) -> Constants:
-        """From any sequences of numbers, of either sign."""
-        return cls(*(np.asarray(values, float) for values in (mu, alpha, higher)))
-
-
-def stability(
-    mu: Sequence[float] | Reals,
-    alpha: Sequence[float] | Reals,
-    higher: Sequence[float] | Reals = (),
-) -> Stability:
-    """Stable ranges of constants of either sign, in MPa, in tension and compression."""
-    constants = Constants.of(mu, alpha, higher)
+def stability(constants: Constants) -> Stability:
+    """Stable ranges of a law's constants, of either sign, in tension and compression."""
     ranges = tuple(_range_of(mode, constants) for mode in MODES.values())
-    return Stability(float(constants.mu.sum()), ranges)
+    return Stability(initial_shear_modulus(constants), ranges)
+
+
+def initial_shear_modulus(constants: Constants) -> float:
+    """Shear modulus of the undeformed material, MPa: half of (s₁ − s₂)/(e₁ − e₂)."""
+    return float(responses(np.zeros((1, 3)), constants).divided[0, 0]) / 2
 
 
 def drucker_margin(logs: Reals, constants: Constants) -> Reals:
     """(n,) least stiffness against isochoric changes along the axes at states (n, 3), MPa.
 
     ``logs`` are isochoric principal log stretches; where it is not positive Drucker's inequality
-    fails.
+    fails. On the plane of isochoric changes the Hessian H has the determinant 1ᵀ adj(H) 1 / 3,
+    which cancels nothing where one axis is far stiffer than the others.
     """
-    first, second, third = _stiffnesses(logs, constants).T
-    _, curvature = invariant_slopes(logs, constants.higher)
-    squares = np.exp(2 * logs)
-    gaps = (np.roll(squares, -1, axis=1) - np.roll(squares, -2, axis=1)) ** 2
-    trace = (2 * (first + second + third) + 4 * curvature * gaps.sum(axis=1)) / 3
-    product = first * second + second * third + third * first
-    cross = first * gaps[:, 0] + second * gaps[:, 1] + third * gaps[:, 2]
-    determinant = (product + 4 * curvature * cross) / 3
+    hessian = responses(logs, constants).hessian
+    trace = np.trace(hessian, axis1=1, axis2=2) - hessian.sum(axis=(1, 2)) / 3
+    determinant = _sum_of_cofactors(hessian) / 3
     root = np.sqrt(np.maximum(trace**2 - 4 * determinant, 0.0))
     with np.errstate(divide="ignore", invalid="ignore"):
         least: Reals = np.where(trace > 0, 2 * determinant / (trace + root), (trace - root) / 2)
@@ -125,10 +103,19 @@ def drucker_margin(logs: Reals, constants: Constants) -> Reals:
 
 def shear_margin(logs: Reals, constants: Constants) -> Reals:
     """(n,) least (τᵢ − τⱼ)/(eᵢ − eⱼ) of states (n, 3), MPa: positive by Baker and Ericksen."""
-    slope, _ = invariant_slopes(logs, constants.higher)
-    pairs = [(logs[:, i], logs[:, j], 2 * slope) for i, j in ((0, 1), (1, 2), (0, 2))]
-    least: Reals = np.min([_divided(*pair, constants) for pair in pairs], axis=0)
+    least: Reals = responses(logs, constants).divided.min(axis=1)
     return least
+
+
+def _sum_of_cofactors(matrices: Reals) -> Reals:
+    """Sum of the nine cofactors of symmetric matrices (n, 3, 3)."""
+    total = np.zeros(len(matrices))
+    for i in range(3):
+        j, k = (i + 1) % 3, (i + 2) % 3
+        total += matrices[:, j, j] * matrices[:, k, k] - matrices[:, j, k] ** 2
+        mixed = matrices[:, j, i] * matrices[:, k, i] - matrices[:, j, k] * matrices[:, i, i]
+        total += 2 * mixed
+    return total
 
 
 def _range_of(mode: Mode, constants: Constants) -> StableRange:
@@ -147,32 +134,12 @@ def _range_of(mode: Mode, constants: Constants) -> StableRange:
     )
 
 
-def _stiffnesses(logs: Reals, constants: Constants) -> Reals:
-    """kᵢ = Σ 2 μ exp(α eᵢ) at states (n, 3), MPa; Yeoh's terms count as μ = 2 W′, α = 2."""
-    slope, _ = invariant_slopes(logs, constants.higher)
-    own = 2 * np.exp(logs[..., None] * constants.alpha) @ constants.mu
-    return own + 4 * slope[:, None] * np.exp(2 * logs)
-
-
-def _divided(first: Reals, second: Reals, modulus: Reals, constants: Constants) -> Reals:
-    """(τᵢ − τⱼ)/(eᵢ − eⱼ) = Σ 2 μ exp(α ē) sinhc(α Δ/2), MPa; ``modulus`` = 2 W′."""
-    exponents = np.append(constants.alpha, 2.0)
-    mean = np.outer((first + second) / 2, exponents)
-    half = np.outer((first - second) / 2, exponents)
-    safe = np.where(half == 0, 1.0, half)
-    units = 2 * (np.exp(mean) * np.where(half == 0, 1.0, np.sinh(safe) / safe))
-    return units[:, :-1] @ constants.mu + units[:, -1] * modulus
-
-
 def _load_slope(mode: Mode, logs: Reals, constants: Constants) -> Reals:
     """λ² dP/dλ of the nominal stress P = τ/λ, MPa: dτ/d ln λ − τ."""
-    states, exponents = np.outer(logs, mode.exponents), np.array(mode.exponents)
-    stiffness, squares = _stiffnesses(states, constants), np.exp(2 * states)
-    first, second = invariant_slopes(states, constants.higher)
-    slope = stiffness[:, 0] * exponents[0] - stiffness[:, 2] * exponents[2]
-    slope += 4 * second * (squares[:, 0] - squares[:, 2]) * (squares @ exponents)
-    ends = states[:, 0], states[:, 2]
-    return slope - mode.gap * logs * _divided(*ends, 2 * first, constants)
+    found = responses(np.outer(logs, mode.exponents), constants)
+    stiffness = found.hessian @ np.array(mode.exponents)
+    slope: Reals = stiffness[:, 0] - stiffness[:, 2] - mode.gap * logs * found.divided[:, 2]
+    return slope
 
 
 def _first_failure(positive: Callable[[Reals], Reals], end: float) -> float:

@@ -14,11 +14,9 @@ from solver.material.homogeneous import (
     MODES,
     PLANAR,
     UNIAXIAL,
-    first_invariant,
     nominal_stress,
-    unit_slopes,
-    unit_stresses,
 )
+from solver.material.ogden import packed
 
 getcontext().prec = 50
 POINTS = Path(__file__).parents[1] / "data/ogden_points.json"
@@ -37,7 +35,7 @@ def test_stresses_equal_the_reference_of_many_digits(
     constants: tuple[tuple[float, ...], tuple[float, ...]], case: str, name: str
 ) -> None:
     for stretch, stresses in CASES[case].items():
-        stress = nominal_stress(NAMES[name], np.array([float(stretch)]), *constants)[0]
+        stress = nominal_stress(NAMES[name], np.array([float(stretch)]), packed(*constants))[0]
         # a stretch next to 1 carries its own rounding, 1e-16/(λ − 1), into the stress
         digits = 3e-13 if abs(float(stretch) - 1) > 0.01 else 3e-11
         assert stress == pytest.approx(stresses[name], rel=digits)
@@ -51,7 +49,7 @@ def test_stresses_equal_the_power_law_in_fifty_digits(alpha: str, stretch: str) 
         exact, power = Decimal(stretch), Decimal(float(alpha))
         ends = [exact ** (power * Decimal(mode.exponents[i])) for i in (0, 2)]
         stress = 2 * (ends[0] - ends[1]) / power / exact
-        ours = nominal_stress(mode, np.array([float(stretch)]), (1.0,), (float(alpha),))[0]
+        ours = nominal_stress(mode, np.array([float(stretch)]), packed((1.0,), (float(alpha),)))[0]
         assert ours == pytest.approx(float(stress), rel=2e-13)
 
 
@@ -59,7 +57,9 @@ def test_a_vanishing_exponent_is_hencky() -> None:
     stretch = np.array([0.3, 1.0, 2.5])
     for mode in MODES.values():
         hencky = 2 * mode.gap * np.log(stretch) / stretch
-        assert nominal_stress(mode, stretch, (1.0,), (0.0,)) == pytest.approx(hencky, rel=1e-15)
+        assert nominal_stress(mode, stretch, packed((1.0,), (0.0,))) == pytest.approx(
+            hencky, rel=1e-15
+        )
 
 
 def test_stress_is_the_derivative_of_the_energy() -> None:
@@ -75,25 +75,14 @@ def test_stress_is_the_derivative_of_the_energy() -> None:
         ahead, behind = (mode.principal_stretches(stretch + s) for s in (step, -step))
         slope = (energy(ahead) - energy(behind)) / (2 * step)
         work = 2 if mode is BIAXIAL else 1
-        assert work * nominal_stress(mode, stretch, mu, alpha) == pytest.approx(slope, rel=1e-7)
-
-
-def test_slopes_in_the_exponent_equal_differences() -> None:
-    logs, alpha, step = np.log(np.array([0.2, 0.9, 1.0001, 1.3, 7.0])), np.linspace(-9, 9, 19), 1e-5
-    for mode in MODES.values():
-        above, below = (
-            unit_stresses(mode.mean, mode.gap, logs, alpha + shift) for shift in (step, -step)
-        )
-        slopes = unit_slopes(mode.mean, mode.gap, logs, alpha)
-        scale = np.abs(unit_stresses(mode.mean, mode.gap, logs, alpha))
-        assert np.abs(slopes - (above - below) / (2 * step)).max(initial=0, where=scale > 0) == (
-            pytest.approx(0, abs=1e-7 * np.abs(slopes).max())
+        assert work * nominal_stress(mode, stretch, packed(mu, alpha)) == pytest.approx(
+            slope, rel=1e-7
         )
 
 
 def test_no_stress_without_strain() -> None:
     for mode in MODES.values():
-        assert nominal_stress(mode, np.array([1.0]), *TRELOAR)[0] == 0.0
+        assert nominal_stress(mode, np.array([1.0]), packed(*TRELOAR))[0] == 0.0
 
 
 @pytest.mark.parametrize("stretch", ["0.2", "0.9999999", "1.000030517578125", "1.3", "4"])
@@ -106,8 +95,6 @@ def test_yeohs_stress_equals_its_definition_in_fifty_digits(stretch: str) -> Non
         x = sum(squares) - 3
         slope = sum((i + 1) * c * x**i for i, c in enumerate(constants))
         expected = 2 * (squares[0] - squares[2]) / exact * slope
-        ours = nominal_stress(mode, np.array([float(stretch)]), (0.8,), (2.0,), (-0.03, 0.002))
+        yeoh = packed((0.8,), (2.0,), (-0.03, 0.002))
+        ours = nominal_stress(mode, np.array([float(stretch)]), yeoh)
         assert ours[0] == pytest.approx(float(expected), rel=2e-13)
-        invariant = first_invariant(np.log(float(stretch)) * np.array(mode.exponents))
-        digits = 1e-12 if abs(float(stretch) - 1) > 0.01 else 3e-9  # the stretch's own rounding
-        assert invariant == pytest.approx(float(x), rel=digits)

@@ -9,10 +9,10 @@ from hypothesis import strategies as st
 
 from solver import Ogden
 from solver.material.homogeneous import MODES, nominal_stress
+from solver.material.ogden import packed
 from solver.material.stability import (
     HIGHEST,
     LOWEST,
-    Constants,
     drucker_margin,
     shear_margin,
     stability,
@@ -26,7 +26,7 @@ EXPONENTS = st.floats(-12, 12)
 @settings(max_examples=60, deadline=None)
 def test_positive_constants_are_stable_at_every_strain(terms: list[tuple[float, float]]) -> None:
     mu, alpha = zip(*terms, strict=True)
-    found = stability(mu, alpha)
+    found = stability(packed(mu, alpha))
     assert found.everywhere and found.covers(LOWEST, HIGHEST)
     assert found.shear_modulus == pytest.approx(sum(mu))
 
@@ -34,7 +34,7 @@ def test_positive_constants_are_stable_at_every_strain(terms: list[tuple[float, 
 def test_mooney_rivlin_with_a_negative_second_constant_fails_where_its_stiffness_does() -> None:
     """Along planar tension k = 2 (λ² + c λ⁻²), 2 (1 + c), 2 (λ⁻² + c λ²) with c = μ₂/μ₁."""
     ratio = -0.1
-    found = stability((1.0, ratio), (2.0, -2.0)).of("planar")
+    found = stability(packed((1.0, ratio), (2.0, -2.0))).of("planar")
 
     def product(stretch: float) -> float:
         square = stretch**2
@@ -52,7 +52,7 @@ def test_mooney_rivlin_with_a_negative_second_constant_fails_where_its_stiffness
 def test_sets_of_mixed_sign_are_flagged_with_their_range(
     mu: tuple[float, ...], alpha: tuple[float, ...]
 ) -> None:
-    found = stability(mu, alpha)
+    found = stability(packed(mu, alpha))
     assert found.shear_modulus > 0 and not found.everywhere
     assert any(each.lowest > LOWEST or each.highest < HIGHEST for each in found.ranges)
     assert all(each.lowest < 1 < each.highest for each in found.ranges)
@@ -60,14 +60,14 @@ def test_sets_of_mixed_sign_are_flagged_with_their_range(
 
 
 def test_a_negative_initial_modulus_is_stable_nowhere() -> None:
-    found = stability((-1.0,), (2.0,))
+    found = stability(packed((-1.0,), (2.0,)))
     assert not found.everywhere and not found.covers(1.0, 1.0)
     assert all((each.lowest, each.highest) == (1.0, 1.0) for each in found.ranges)
 
 
 def test_henckys_load_peaks_at_e() -> None:
     """P = 3 μ ln λ / λ in uniaxial tension, and likewise in the other tests: the peak is at e."""
-    for each in stability((1.0,), (0.0,)).ranges:
+    for each in stability(packed((1.0,), (0.0,))).ranges:
         assert each.load_rises_to == pytest.approx(np.e, rel=1e-9)
         assert each.complete
 
@@ -75,17 +75,17 @@ def test_henckys_load_peaks_at_e() -> None:
 def test_the_load_peak_is_the_largest_nominal_stress() -> None:
     mu, alpha = (1.0,), (0.7,)
     line = np.linspace(1.0, HIGHEST, 200_001)
-    for each in stability(mu, alpha).ranges:
-        stress = nominal_stress(MODES[each.mode], line, mu, alpha)
+    for each in stability(packed(mu, alpha)).ranges:
+        stress = nominal_stress(MODES[each.mode], line, packed(mu, alpha))
         peak = line[stress.argmax()]
         assert each.load_rises_to == pytest.approx(peak, rel=1e-3)
 
 
 def test_neo_hooke_carries_more_load_at_every_stretch() -> None:
-    assert all(each.load_rises_to == HIGHEST for each in stability((1.0,), (2.0,)).ranges)
+    assert all(each.load_rises_to == HIGHEST for each in stability(packed((1.0,), (2.0,))).ranges)
 
 
-YEOH = Constants.of((0.8,), (2.0,), (-0.12, 0.002))
+YEOH = packed((0.8,), (2.0,), (-0.12, 0.002))
 
 
 def states(count: int, size: float, seed: int = 4) -> np.ndarray:
@@ -97,7 +97,7 @@ def states(count: int, size: float, seed: int = 4) -> np.ndarray:
 def test_druckers_margin_is_the_least_curvature_of_the_energy() -> None:
     """Against second differences of the solver's own energy, in two directions of the plane."""
     material = Ogden((0.8, 0.1), (2.0, -1.5), higher=(-0.06, 0.002))
-    constants = Constants.of(material.mu, material.alpha, material.higher)
+    constants = material.constants
     basis = np.array([[2.0, -1.0, -1.0], [0.0, 3**0.5, -(3**0.5)]]) / 6**0.5
     step = 1e-3
     for logs in states(20, 0.8):
@@ -127,8 +127,8 @@ def test_the_shear_margin_is_the_least_ratio_of_stress_to_strain_differences() -
 
 
 def test_yeoh_with_a_negative_second_constant_is_flagged_where_its_slope_falls() -> None:
-    assert stability((0.8,), (2.0,), (0.01, 0.002)).everywhere
-    found = stability((0.8,), (2.0,), (-0.12, 0.002))
+    assert stability(packed((0.8,), (2.0,), (0.01, 0.002))).everywhere
+    found = stability(packed((0.8,), (2.0,), (-0.12, 0.002)))
     assert found.shear_modulus == 0.8 and not found.everywhere
     uniaxial = found.of("uniaxial")
     for stretch, stable in ((0.999 * uniaxial.highest, True), (1.001 * uniaxial.highest, False)):
@@ -138,10 +138,10 @@ def test_yeoh_with_a_negative_second_constant_is_flagged_where_its_slope_falls()
 
 
 def test_the_nominal_stress_of_yeoh_peaks_where_its_slope_says() -> None:
-    higher = (-0.02, 1e-4)
+    yeoh = packed((0.8,), (2.0,), (-0.02, 1e-4))
     line = np.linspace(1.0, HIGHEST, 100_001)
-    for each in stability((0.8,), (2.0,), higher).ranges:
-        stress = nominal_stress(MODES[each.mode], line, (0.8,), (2.0,), higher)
+    for each in stability(yeoh).ranges:
+        stress = nominal_stress(MODES[each.mode], line, yeoh)
         falling = np.flatnonzero(np.diff(stress) < 0)
         peak = line[falling[0]] if falling.size else HIGHEST
         assert each.load_rises_to == pytest.approx(peak, rel=1e-3)
