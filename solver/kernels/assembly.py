@@ -8,10 +8,10 @@ import numpy as np
 from numba import prange
 
 from solver.arrays import Integers, Reals
-from solver.kernels.compiled import compiled
 from solver.kernels.element import UNKNOWNS, Solid, element_energy, element_response
 from solver.kernels.moving_plane import to_plane_unknowns
 from solver.kernels.scatter import mirror_upper, scatter
+from solver.numerics.compiled import compiled
 
 
 class Places(NamedTuple):

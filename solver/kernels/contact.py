@@ -7,9 +7,9 @@ from typing import NamedTuple
 import numpy as np
 
 from solver.arrays import Integers, Reals
-from solver.kernels.compiled import compiled
 from solver.kernels.moving_plane import to_plane_unknowns
 from solver.kernels.scatter import mirror_upper, scatter
+from solver.numerics.compiled import compiled
 
 UNKNOWNS = 20
 """Of a triangle: three for each of six nodes, then tilt and shift of the moving plane."""

@@ -22,8 +22,7 @@ from typing import NamedTuple
 import numpy as np
 
 from solver.arrays import Integers, Reals
-from solver.kernels.compiled import compiled
-from solver.kernels.hyperelastic import law_energy, principal_response
+from solver.kernels.hyperelastic import principal_response
 from solver.kernels.tensors import (
     deformation_gradient,
     invert,
@@ -32,7 +31,9 @@ from solver.kernels.tensors import (
     to_global_axes,
     volume_change,
 )
-from solver.kernels.volumetric import volume_energy, volume_law
+from solver.material.by_number import law_energy
+from solver.material.volumetric import volume_energy, volume_law
+from solver.numerics.compiled import compiled
 
 UNKNOWNS = 34
 

@@ -3,38 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from typing import Any
 
 import numpy as np
-from numba import njit
 
 from solver.arrays import Reals
-from solver.kernels.compiled import compiled
-from solver.kernels.special_functions import x_coth_x
-from solver.material.laws import LAWS
-
-
-def _by_number(functions: Sequence[Callable[..., Any]]) -> Callable[..., Any]:
-    """(number, *arguments) -> that function of the arguments: a compiled chain of comparisons."""
-    first, rest = functions[0], functions[1:]
-    if not rest:
-        return njit(error_model="numpy")(lambda number, *arguments: first(*arguments))
-    others = _by_number(rest)
-
-    def chosen(number: int, *arguments: Any) -> Any:
-        if number == 0:
-            return first(*arguments)
-        return others(number - 1, *arguments)
-
-    return njit(error_model="numpy")(chosen)
-
-
-law_energy = _by_number([law.implementation.energy for law in LAWS])
-"""(law, e, constants) -> W; see ``solver.material.laws``."""
-
-law_response = _by_number([law.implementation.response for law in LAWS])
-"""(law, e, gaps, constants, stress, hessian, divided); see ``solver.material.laws``."""
+from solver.material.by_number import law_response
+from solver.numerics.compiled import compiled
+from solver.numerics.special_functions import x_coth_x
 
 
 @compiled()

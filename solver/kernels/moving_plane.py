@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from solver.arrays import Reals
-from solver.kernels.compiled import compiled
+from solver.numerics.compiled import compiled
 
 
 @compiled()

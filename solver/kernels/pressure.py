@@ -7,9 +7,9 @@ from typing import NamedTuple
 import numpy as np
 
 from solver.arrays import Integers, Reals
-from solver.kernels.compiled import compiled
 from solver.kernels.moving_plane import to_plane_unknowns
 from solver.kernels.scatter import scatter
+from solver.numerics.compiled import compiled
 
 UNKNOWNS = 18
 """Of a triangle."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from solver.arrays import Integers, Reals
-from solver.kernels.compiled import compiled
+from solver.numerics.compiled import compiled
 
 
 @compiled()

@@ -6,14 +6,13 @@ import numpy as np
 from numba import prange
 
 from solver.arrays import Reals
-from solver.kernels.compiled import compiled
 from solver.kernels.element import (
     Solid,
     displacement_gradient,
     reference_gradients,
     spatial_gradients,
 )
-from solver.kernels.hyperelastic import law_response, principal_response
+from solver.kernels.hyperelastic import principal_response
 from solver.kernels.tensors import (
     along_axes,
     deformation_gradient,
@@ -23,6 +22,8 @@ from solver.kernels.tensors import (
     spectrum,
     volume_change,
 )
+from solver.material.by_number import law_response
+from solver.numerics.compiled import compiled
 
 
 @compiled(parallel=True)

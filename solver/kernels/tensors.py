@@ -10,7 +10,7 @@ import math
 import numpy as np
 
 from solver.arrays import Reals
-from solver.kernels.compiled import compiled
+from solver.numerics.compiled import compiled
 
 
 @compiled()

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from solver.arrays import Reals
-from solver.material.law import Constants
+from solver.material.constants import Constants
 from solver.material.states import responses
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import ClassVar, Literal
 
 import numpy as np
@@ -10,19 +9,9 @@ from numpy.typing import ArrayLike
 
 from solver.arrays import Reals
 from solver.errors import SolverError
+from solver.material.constants import Constants
 
 Volumetric = Literal["quadratic", "logarithmic"]
-
-
-@dataclass(frozen=True, eq=False)
-class Constants:
-    """A law by its ``number`` in the table of laws, and its constants as its functions take them.
-
-    ``values`` (c,) may be of either sign: whether the material is stable is another question.
-    """
-
-    number: int
-    values: Reals
 
 
 class Hyperelastic:
@@ -63,7 +52,7 @@ class Hyperelastic:
 
     def energy(self, log_stretches: ArrayLike) -> float:
         """W in MPa at isochoric principal log stretches (3,), whose sum is 0."""
-        from solver.kernels.hyperelastic import law_energy
+        from solver.material.by_number import law_energy
 
         constants = self.constants
         return float(

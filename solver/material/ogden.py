@@ -23,10 +23,11 @@ import numpy as np
 
 from solver.arrays import Reals
 from solver.errors import SolverError
-from solver.kernels.compiled import compiled
-from solver.kernels.special_functions import phi1, phi2, sinhc
-from solver.material.law import Constants, Hyperelastic, Volumetric
+from solver.material.constants import Constants
+from solver.material.law import Hyperelastic, Volumetric
 from solver.material.laws import number_of
+from solver.numerics.compiled import compiled
+from solver.numerics.special_functions import phi1, phi2, sinhc
 
 
 @dataclass(frozen=True)

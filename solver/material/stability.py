@@ -20,8 +20,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from solver.arrays import Reals
+from solver.material.constants import Constants
 from solver.material.homogeneous import MODES, Mode
-from solver.material.law import Constants
 from solver.material.states import responses
 
 LOWEST, HIGHEST = 0.1, 10.0

@@ -7,9 +7,9 @@ from typing import NamedTuple
 import numpy as np
 
 from solver.arrays import Reals
-from solver.kernels.compiled import compiled
-from solver.kernels.hyperelastic import law_response
-from solver.material.law import Constants
+from solver.material.by_number import law_response
+from solver.material.constants import Constants
+from solver.numerics.compiled import compiled
 
 
 class Responses(NamedTuple):

@@ -13,21 +13,21 @@ from pathlib import Path
 import pytest
 from numba import config
 
-from solver.kernels import compiled as cache
+from solver.numerics import compiled as cache
 
 ROOT = Path(__file__).parents[3]
 
 TWO_FILES = {
-    "kernels/inner.py": """
-from solver.kernels.compiled import compiled
+    "material/inner.py": """
+from solver.numerics.compiled import compiled
 
 @compiled()
 def inner(x):
     return x + 1.0
 """,
     "kernels/outer.py": """
-from solver.kernels.compiled import compiled
-from solver.kernels.inner import inner
+from solver.numerics.compiled import compiled
+from solver.material.inner import inner
 
 @compiled()
 def outer(x):
@@ -44,10 +44,10 @@ print(outer(1.0), sum(outer.stats.cache_hits.values()))
 def package(tmp_path: Path) -> Path:
     """A package ``solver`` of three files: one compiled function that calls another's."""
     solver = tmp_path / "solver"
-    (solver / "kernels").mkdir(parents=True)
-    (solver / "__init__.py").touch()
-    (solver / "kernels/__init__.py").touch()
-    shutil.copy(cache.__file__, solver / "kernels")
+    for folder in (solver, *(solver / name for name in cache.SOURCES)):
+        folder.mkdir()
+        (folder / "__init__.py").touch()
+    shutil.copy(cache.__file__, solver / "numerics")
     for name, code in TWO_FILES.items():
         (solver / name).write_text(code)
     return solver
@@ -71,7 +71,7 @@ def answer(package: Path) -> tuple[float, int]:
 def test_a_change_of_a_called_function_in_another_file_is_noticed(package: Path) -> None:
     assert answer(package) == (2.0, 0)
     assert answer(package) == (2.0, 1)
-    inner = package / "kernels/inner.py"
+    inner = package / "material/inner.py"
     before = inner.stat()
     inner.write_text(inner.read_text().replace("1.0", "5.0"))
     os.utime(inner, ns=(before.st_atime_ns, before.st_mtime_ns))
@@ -81,13 +81,13 @@ def test_a_change_of_a_called_function_in_another_file_is_noticed(package: Path)
 
 def test_caches_of_other_versions_go_after_a_while(package: Path) -> None:
     answer(package)
-    (used,) = (package / "kernels/__pycache__").glob("solver-*")
+    (used,) = (package / "numerics/__pycache__").glob("solver-*")
     recent, old = (used.with_name(f"solver-{name}") for name in ("recent", "old"))
     for folder in (recent, old):
         folder.mkdir()
     past = time.time() - 2 * cache.KEPT_SECONDS
     os.utime(old, (past, past))
-    (package / "kernels/inner.py").touch()
+    (package / "material/inner.py").touch()
     answer(package)
     assert recent.exists() and used.exists() and not old.exists()
 
@@ -106,7 +106,7 @@ def test_functions_of_others_are_cached_where_they_were() -> None:
 def test_a_package_that_cannot_be_written_to_leaves_the_choice_to_numba(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    (tmp_path / "kernels").touch()  # a file where a folder would have to be
+    (tmp_path / "numerics").touch()  # a file where a folder would have to be
     monkeypatch.setattr(cache, "PACKAGE", tmp_path)
     assert cache.cache_folder.__wrapped__("") == ""
 

@@ -23,7 +23,7 @@ settings: Any = config
 Function = TypeVar("Function", bound=Callable[..., Any])
 
 PACKAGE = Path(__file__).parents[1]
-SOURCES = ("kernels", "material")
+SOURCES = ("numerics", "material", "kernels")
 """Folders of the package whose compiled functions call each other."""
 
 KEPT_SECONDS = 7 * 24 * 3600.0
@@ -52,7 +52,7 @@ def cache_folder(asked_for: str) -> str:
     Empty, numba's own choice, where the package cannot be written to: such a copy was installed,
     and the times of its files change together.
     """
-    base = Path(asked_for) if asked_for else PACKAGE / "kernels" / "__pycache__"
+    base = Path(asked_for) if asked_for else PACKAGE / "numerics" / "__pycache__"
     folder = base / f"solver-{source_hash()}"
     try:
         folder.mkdir(parents=True, exist_ok=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from solver.kernels.compiled import compiled
+from solver.numerics.compiled import compiled
 
 
 @compiled()

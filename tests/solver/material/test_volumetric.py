@@ -6,7 +6,7 @@ from decimal import Decimal, getcontext
 
 import pytest
 
-from solver.kernels.volumetric import volume_energy, volume_law
+from solver.material.volumetric import volume_energy, volume_law
 
 getcontext().prec = 50
 

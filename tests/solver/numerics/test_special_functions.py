@@ -6,7 +6,7 @@ from decimal import Decimal, getcontext
 
 import pytest
 
-from solver.kernels.special_functions import phi1, phi2, sinhc, x_coth_x
+from solver.numerics.special_functions import phi1, phi2, sinhc, x_coth_x
 
 getcontext().prec = 50
 

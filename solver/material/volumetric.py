@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
-from solver.kernels.compiled import compiled
-from solver.kernels.special_functions import phi1, phi2, sinhc
+from solver.numerics.compiled import compiled
+from solver.numerics.special_functions import phi1, phi2, sinhc
 
 
 @compiled()
