@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
-from printers.measure.box_tree import BoxTree, Floats, Ints, build_tree
+from printers.arrays import Flags, Floats, Ints
+from printers.measure.box_tree import BoxTree, build_tree
 
 MERGE_DISTANCE = 1e-5  # mm: above the rounding of a binary STL at 100 mm, far below any feature
 
@@ -66,6 +66,24 @@ class Surface:
         return np.asarray(np.unique(keys, return_inverse=True)[1])
 
     @cached_property
+    def edge_uses(self) -> Ints:
+        """(e,): how many triangles share each undirected edge."""
+        return np.bincount(self.edge_number)
+
+    @cached_property
+    def edge_balance(self) -> Ints:
+        """(e,): how many more triangles run along each edge in one sense than in the other."""
+        forward = self.half_edges[:, 0] < self.half_edges[:, 1]
+        return np.abs(
+            2 * np.bincount(self.edge_number, weights=forward).astype(np.int64) - self.edge_uses
+        )
+
+    @property
+    def is_closed(self) -> bool:
+        """Whether every edge lies between two triangles that run along it in opposite senses."""
+        return bool((self.edge_uses == 2).all() and (self.edge_balance == 0).all())
+
+    @cached_property
     def neighbours(self) -> tuple[Ints, Ints, Ints]:
         """Pairs of triangles that share an edge, and the half-edge of the first: three (k,) arrays.
 
@@ -79,11 +97,6 @@ class Surface:
     def shell_of_triangle(self) -> Ints:
         """(m,): number of the connected piece of surface every triangle belongs to."""
         return label(len(self.triangles), *self.neighbours[:2])
-
-    def part(self, chosen: NDArray[np.bool_]) -> Surface:
-        """The surface made of the chosen triangles (m,) alone."""
-        used, triangles = np.unique(self.triangles[chosen], return_inverse=True)
-        return Surface(self.vertices[used], triangles.reshape(-1, 3))
 
     def volume(self) -> float:
         """Signed enclosed volume in mm³, by the divergence theorem; negative for a void."""
@@ -107,7 +120,7 @@ class Samples:
     triangle: Ints
     area: float
 
-    def chosen(self, which: NDArray[np.bool_]) -> Samples:
+    def chosen(self, which: Flags) -> Samples:
         """The samples picked by (k,) flags."""
         return Samples(self.points[which], self.normals[which], self.triangle[which], self.area)
 
