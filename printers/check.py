@@ -47,7 +47,7 @@ RULES_FOR_SOLIDS: tuple[Rule, ...] = (
 """They measure within the material, and need a mesh that bounds some."""
 
 NEVER_SILENT = ("airtightness", "wall_multiple_measured", "minimum_lines", "minimum_layers")
-"""Rules that fail where nothing can be measured, lest their silence be taken for consent."""
+"""Rules that fail where nothing can be measured: a report without them could pass for good."""
 
 
 def check_printability(model: PrintedModel, profile: PrinterProfile) -> PrintabilityReport:

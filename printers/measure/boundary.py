@@ -9,8 +9,9 @@ import numpy as np
 
 from printers.arrays import Flags, Floats
 from printers.measure.plugging import near_axis
+from printers.measure.samples import Samples, sample
 from printers.measure.shells import Shells
-from printers.measure.surface import Samples, Surface, sample
+from printers.measure.surface import Surface
 from printers.model import Opening
 
 SAMPLES_PER_SQUARE_MILLIMETRE = 4.0
@@ -31,10 +32,12 @@ class Boundary:
 
     @property
     def surface(self) -> Surface:
+        """All of it, the plugs included."""
         return self.shells.surface
 
     @property
     def has_cavity(self) -> bool:
+        """Whether the plugged part encloses any air."""
         return bool(self.shells.voids)
 
     @cached_property

@@ -18,9 +18,9 @@ from printers.measure.plugging import near_axis
 from printers.measure.surface import Surface, label
 from printers.model import Opening
 
-SOURCE, DRAIN = 0, 1  # nodes of the graph: all that is surely inside, all that is surely outside
+SOURCE, DRAIN = 0, 1  # nodes of the graph: what is certainly inside, and outside
 UNITS_PER_MILLIMETRE = 1000  # the maximum flow counts in whole micrometres
-GROWTH_STEPS = (0.0, 2.0, 4.0, 8.0, 16.0)  # radii of the opening taken as surely inside
+GROWTH_STEPS = (0.0, 2.0, 4.0, 8.0, 16.0)  # radii of the opening taken as certainly inside
 
 
 @dataclass(frozen=True)
@@ -106,7 +106,7 @@ def _edge_lengths(surface: Surface, half_edge: Ints) -> Floats:
 
 
 def _follows_start_border(surface: Surface, rim: Ints, inside: Flags) -> bool:
-    """Whether most of the curve merely runs around the set it started from."""
+    """Whether most of the curve runs along the border of the set it started from."""
     first, second, half_edge = surface.neighbours
     border = half_edge[inside[first] != inside[second]]
     lengths = _edge_lengths(surface, rim)

@@ -14,7 +14,8 @@ import numpy as np
 
 from printers.arrays import Flags, Floats
 from printers.measure.box_tree import first_hits
-from printers.measure.surface import Samples, Surface
+from printers.measure.samples import Samples
+from printers.measure.surface import Surface
 
 Filling = Literal["material", "air"]
 

@@ -8,8 +8,8 @@ import numpy as np
 
 from printers.measure.boundary import Boundary
 from printers.measure.part import MeasuredPart
+from printers.measure.samples import Samples
 from printers.measure.slabs import Slabs, measure_slabs
-from printers.measure.surface import Samples
 from printers.model import DeclaredGap
 from printers.profile import PrinterProfile
 from printers.report import RuleResult, pass_or_fail, place
@@ -47,7 +47,7 @@ def _air(boundary: Boundary, samples: Samples, reach: float) -> Slabs:
 
 
 def _narrowest(rule: str, scope: str, slabs: Slabs, profile: PrinterProfile) -> RuleResult:
-    """The width that at least the smallest countable area of wall falls below."""
+    """The width that is not exceeded on `SMALLEST_AREA` of wall."""
     needed = max(1, int(np.ceil(SMALLEST_AREA / slabs.area)))
     if len(slabs.thickness) < needed:
         message = f"no walls stand close to each other {_inside(scope)}"

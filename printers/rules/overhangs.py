@@ -17,7 +17,7 @@ from printers.arrays import Flags, Floats
 from printers.measure.boundary import Boundary
 from printers.measure.box_tree import first_hits
 from printers.measure.part import MeasuredPart
-from printers.measure.surface import Samples
+from printers.measure.samples import Samples
 from printers.profile import PrinterProfile
 from printers.report import RuleResult, Verdict, place
 from printers.tolerances import SMALLEST_AREA

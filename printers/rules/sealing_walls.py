@@ -54,7 +54,7 @@ def check_sealing_walls(part: MeasuredPart) -> Iterator[RuleResult]:
 def ways_out(part: MeasuredPart) -> tuple[Floats, Floats]:
     """Points (k, 3) mm of the cavity's wall, and the way (k, 3) mm to the nearest outside.
 
-    Without a cavity the parallel walls seen by the survey are left, each crossed at its middle.
+    Without a cavity only the parallel walls of the survey are left, each crossed at its middle.
     """
     if part.boundary.has_cavity:
         points = _cavity_points(part.boundary)

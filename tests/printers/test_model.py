@@ -1,4 +1,4 @@
-"""What the check refuses to look at."""
+"""Parts and declarations that are refused."""
 
 from __future__ import annotations
 

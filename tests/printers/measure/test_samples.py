@@ -1,4 +1,4 @@
-"""Triangles as one surface, and points spread over it."""
+"""Points spread over a surface."""
 
 from __future__ import annotations
 
@@ -7,7 +7,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from printers.measure.surface import merged_surface, sample
+from printers.measure.samples import sample
+from printers.measure.surface import merged_surface
 
 
 def test_sampling_by_area_does_not_see_the_triangles(solids: SimpleNamespace) -> None:
