@@ -1,4 +1,4 @@
-"""The nearest point of a triangle.
+"""The nearest point of a triangle or a segment.
 
 `trimesh.triangles.closest_point` would do for well-shaped triangles, but booleans and tessellators
 leave needles: on those 1e-5 of their length high it errs by 4e-7 mm, on those of 1e-12 by
@@ -22,7 +22,7 @@ def closest_on_triangles(corners: Floats, points: Floats) -> Floats:
     best, shortest = inside, np.linalg.norm(inside - points, axis=1)
     shortest = np.where(np.isnan(shortest), np.inf, shortest)
     for side in range(3):
-        close = _on_segments(corners[:, side], corners[:, (side + 1) % 3], points)
+        close = closest_on_segments(corners[:, side], corners[:, (side + 1) % 3], points)
         distance = np.linalg.norm(close - points, axis=1)
         nearer = distance < shortest
         best = np.where(nearer[:, None], close, best)
@@ -47,7 +47,8 @@ def _foot(corners: Floats, points: Floats) -> Floats:
     return np.where(inside[:, None], foot, np.nan)
 
 
-def _on_segments(start: Floats, end: Floats, points: Floats) -> Floats:
+def closest_on_segments(start: Floats, end: Floats, points: Floats) -> Floats:
+    """Nearest point (k, d) of each segment from start to end (k, d) to each point (k, d)."""
     along = end - start
     square = np.maximum(np.einsum("ij,ij->i", along, along), 1e-300)
     fraction = np.clip(np.einsum("ij,ij->i", points - start, along) / square, 0, 1)

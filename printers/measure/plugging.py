@@ -49,17 +49,31 @@ def plugged(surface: Surface, openings: Sequence[Opening]) -> Surface:
     A plug is a cylinder around the mouth's axis, reaching one radius into and out of the part.
     Raises PrintersError if the surface bounds no solid.
     """
-    from manifold3d import Manifold, Mesh64
-
-    solid = Manifold(Mesh64(surface.vertices, surface.triangles.astype(np.uint64)))
-    if solid.status().name != "NoError":
-        raise PrintersError(
-            f"the mesh bounds no solid ({solid.status().name}); it cannot be plugged"
-        )
+    solid = solid_of(surface)
     for opening in openings:
         solid = solid + _plug(opening)
     mesh = solid.to_mesh64()
     return merged_surface(mesh.vert_properties[:, :3], mesh.tri_verts.astype(np.int64))
+
+
+def solid_of(surface: Surface) -> Manifold:
+    """The solid within a closed surface. Raises PrintersError if there is none."""
+    from manifold3d import Manifold, Mesh64
+
+    solid = Manifold(Mesh64(surface.vertices, surface.triangles.astype(np.uint64)))
+    status = solid.status().name
+    if status != "NoError":
+        raise PrintersError(f"the mesh bounds no solid ({status}); it cannot be plugged")
+    return solid
+
+
+def frame_of(opening: Opening) -> Floats:
+    """(3, 3): a right-handed frame of unit columns, the last of which points out of the opening."""
+    axis = np.asarray(opening.direction) / np.linalg.norm(opening.direction)
+    helper = np.eye(3)[np.abs(axis).argmin()]
+    first = np.cross(helper, axis)
+    first /= np.linalg.norm(first)
+    return np.column_stack([first, np.cross(axis, first), axis])
 
 
 def near_axis(points: Floats, opening: Opening, depth: float) -> Flags:
@@ -81,14 +95,4 @@ def _plug(opening: Opening) -> Manifold:
     cylinder = Manifold.cylinder(
         2 * opening.radius, opening.radius + PLUG_MARGIN, -1.0, PLUG_SIDES, True
     )
-    frame = np.column_stack([_frame(np.asarray(opening.direction)), opening.centre])
-    return cylinder.transform(frame)
-
-
-def _frame(direction: Floats) -> Floats:
-    """(3, 3): a right-handed frame whose third column is the direction."""
-    axis = direction / np.linalg.norm(direction)
-    helper = np.eye(3)[np.abs(axis).argmin()]
-    first = np.cross(helper, axis)
-    first /= np.linalg.norm(first)
-    return np.column_stack([first, np.cross(axis, first), axis])
+    return cylinder.transform(np.column_stack([frame_of(opening), opening.centre]))
