@@ -2,7 +2,7 @@
 
     python tests/benchmarks/against_the_paper.py [results.json]
 
-Prints the README's table and, if asked, writes all numbers, seconds among them, as JSON.
+Prints the table of docs/paper.md and, if asked, writes all numbers, seconds among them, as JSON.
 """
 
 from __future__ import annotations

@@ -229,7 +229,7 @@ AGREEMENT_PERCENT = {
     "bubble thickness 1.2": 5,
     "tendon width 6": 8,
     "inner fillet 1": 5,
-    # stands apart in every reading of the geometry: see "Against the paper" in the README
+    # stands apart in every reading of the geometry: see docs/paper.md
     "bubble height 16": 12,
 }
 
