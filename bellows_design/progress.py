@@ -38,6 +38,10 @@ class Silence:
         """Ignored."""
 
 
+SILENCE: Progress = Silence()
+"""The default where a run takes a ``Progress``."""
+
+
 @dataclass
 class Narrator:
     """Progress as lines of text, given to ``say``; seconds are counted by ``clock``."""

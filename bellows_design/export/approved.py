@@ -1,13 +1,13 @@
-"""Approved models leave through here, and only approved ones.
+"""The folder of an approved design.
 
 ``exports/NAME/`` holds ``NAME.stl``, ``NAME.3mf``, ``NAME.step`` and ``manifest.json``. The folder
 is written under a hidden name beside its place and renamed when it is complete: a reader finds all
 of it or nothing. The manifest states the design, the verdict's grounds and the hash of every file.
 
-One name stands for one current verdict. An export replaces the earlier one of its name; a refusal
-withdraws it, for whoever looks into the folder must not take yesterday's approval for today's.
-Nothing is lost by that: the design in a manifest rebuilds its files. Only files that a manifest of
-ours lists are ever removed, never a file or folder that someone else put there.
+A name has one current verdict. An export replaces the earlier one of its name, and a refusal
+withdraws it, so that an outdated approval is never taken for the current one. Nothing is lost: the
+design in a manifest rebuilds its files. Only files that a manifest of ours lists are ever removed,
+never a file or folder that someone else put there.
 """
 
 from __future__ import annotations
@@ -20,10 +20,9 @@ import shutil
 from collections.abc import Mapping
 from contextlib import suppress
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from bellows_design.approval import Verdict
-from bellows_design.errors import DesignError, quoted
+from bellows_design.errors import BellowsError, DesignError, quoted
 from bellows_design.export.formats import WRITERS, Part
 from bellows_design.files.atomic import (
     open_to_readers,
@@ -31,6 +30,9 @@ from bellows_design.files.atomic import (
     replacing,
     temporary_beside,
 )
+
+if TYPE_CHECKING:
+    from bellows_design.approval import Verdict
 
 MANIFEST = "manifest.json"
 MANIFEST_FORMAT = "bellows-design manifest 1"
@@ -41,12 +43,15 @@ def export_approved(
 ) -> Path:
     """Write the approved ``part`` into ``output_root/NAME`` and return that folder.
 
-    ``grounds`` goes into the manifest (design, check, evaluation, versions). Raises ``ValueError``
-    if the verdict is no approval, ``DesignError`` if the folder holds files that are not ours, and
-    ``OSError`` if it cannot be written; then nothing has changed.
+    ``grounds`` goes into the manifest (design, check, evaluation, versions).
+
+    Raises:
+        BellowsError: The verdict is no approval.
+        DesignError: The folder holds files that are not ours.
+        OSError: It cannot be written; then nothing has changed.
     """
     if not verdict.approved:
-        raise ValueError(f"{part.name} is not approved and cannot be exported")
+        raise BellowsError(f"{part.name} is not approved and cannot be exported")
     require_place(part.name, output_root)
     target = output_root / part.name
     output_root.mkdir(parents=True, exist_ok=True)
@@ -64,7 +69,7 @@ def export_approved(
 def require_place(name: str, output_root: Path) -> None:
     """Raise ``DesignError`` if ``output_root/name`` may not be written or replaced.
 
-    Worth asking before the long computation that an export follows.
+    Asked before the long computation that an export follows.
     """
     _require_plain(name)
     if output_root.exists() and not output_root.is_dir():
@@ -180,7 +185,7 @@ def _listed_files(folder: Path) -> tuple[str, ...] | None:
 
 
 def _is_plain(name: str) -> bool:
-    """True if ``name`` leads to a place right in a folder: no way out, no way further in."""
+    """True if ``name`` names an entry of a folder itself, neither above it nor further down."""
     return name == Path(name).name and name not in ("", "..", ".") and "\0" not in name
 
 

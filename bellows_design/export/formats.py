@@ -1,4 +1,4 @@
-"""The formats a part leaves in: one writer for each suffix.
+"""File formats of a part: one writer for each suffix.
 
 Lengths are millimetres in all of them. STL and 3MF hold the checked triangle mesh itself, STEP
 the exact solid. A new format is one more function and one more line in ``WRITERS``.

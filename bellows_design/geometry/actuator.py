@@ -48,7 +48,7 @@ def printed_part(bellows: BellowsParameters, indent: Indent | None, port: Port) 
     Faces: ``cavity``, ``outside``, ``root``, ``tip``, ``port`` (the socket and its mouth).
 
     Raises:
-        ValueError: indent or port do not fit the bellows.
+        DesignError: indent or port do not fit the bellows.
         GeometryError: the CAD kernel failed.
     """
     port.check_fits(bellows)

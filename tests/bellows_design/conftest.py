@@ -46,6 +46,7 @@ def stub_stages(monkeypatch: pytest.MonkeyPatch, cube_part: Part) -> Callable[..
             pressures: Sequence[float] = (),
             progress: Progress = SILENCE,
             budget: Budget = DEFAULT,
+            refine_while: Any = None,
         ) -> Any:
             progress.stage("solve")
             if isinstance(evaluation, BaseException):

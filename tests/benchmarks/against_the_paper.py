@@ -35,7 +35,7 @@ def row(case: Result, evaluation: Evaluation) -> str:
         f"| {angle:.0f}° ± {error.bending_angle_percent:.0f} % ({off:+.1f} %) "
         f"| {case.max_stress_mpa:.2f} MPa "
         f"| {stress:.2f} MPa ± {error.max_von_mises_percent:.0f} % "
-        f"| {len(evaluation.finest.problem.mesh.tets)} |"
+        f"| {evaluation.mesh.elements} |"
     )
 
 

@@ -9,11 +9,10 @@ import subprocess
 import sys
 import tomllib
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from fakes import FakeEstimate, FakeEvaluation, fake_report
+from fakes import FakeEvaluation, fake_report
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
@@ -36,7 +35,7 @@ def test_help_and_list_load_nothing_heavy() -> None:
         "import sys; from bellows_design.cli.commands import app\n"
         "try: app(sys.argv[1:])\n"
         "except SystemExit as e: assert not e.code\n"
-        "heavy = {'cadquery', 'gmsh', 'numba', 'scipy', 'trimesh', 'vtkmodules', 'OCP'}\n"
+        "heavy = {'cadquery', 'gmsh', 'numba', 'psutil', 'scipy', 'trimesh', 'vtkmodules', 'OCP'}\n"
         "sys.exit(str(heavy & set(sys.modules)) if heavy & set(sys.modules) else 0)"
     )
     for arguments in (["--help"], ["list"], ["list", "--json"], ["run", "--help"]):
@@ -380,16 +379,3 @@ def test_no_input_leads_to_a_traceback_or_a_file_elsewhere(
     assert [path.name for path in base.iterdir()] == ["output"]
     for folder in output.iterdir():
         assert (folder / "manifest.json").exists()
-
-
-def test_an_open_verdict_refines_the_mesh_and_decides_again(
-    bellows: Bellows,
-    stub_stages: Callable[..., None],
-    tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    finer = FakeEvaluation(max_von_mises_mpa=3.8, error_estimate=FakeEstimate(1.0))
-    monkeypatch.setattr("bellows_design.analysis.evaluate.refined", lambda *_: finer)
-    stub_stages(replace(finer, can_refine=True, error_estimate=FakeEstimate(20.0)))
-    status, out, _ = bellows("run", "prototype_2", "--output", str(tmp_path), "--json")
-    assert status == 0 and json.loads(out)["approved"]
