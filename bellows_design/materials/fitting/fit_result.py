@@ -19,7 +19,7 @@ VANISHED = 1e-4
 OPEN_FACTOR, OPEN_EXPONENT = 10.0, 2.0
 """Half-widths of an interval from which on a constant counts as not determined."""
 
-RIVAL = 0.1
+SAME_STRESS = 0.1
 """Relative difference in stress from which on equally good fits are not the same."""
 
 BEST_ERROR = 0.01
@@ -72,7 +72,7 @@ class Estimate:
     """Constants as a law's own fit finds them, before they are compared with the measurements.
 
     ``mu`` and ``higher`` in MPa; ``squares`` is the sum of squared relative errors; ``vanished``
-    if a term adds nothing; ``rivalry`` see ``Fit.unique``.
+    if a term adds nothing; ``ambiguity`` see ``Fit.unique``.
     """
 
     mu: tuple[float, ...]
@@ -81,7 +81,7 @@ class Estimate:
     squares: float
     vanished: bool
     higher: tuple[float, ...] = ()
-    rivalry: float = 0.0
+    ambiguity: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -104,7 +104,7 @@ class Fit:
     misfit: Misfit
     aicc: float
     vanished: bool
-    rivalry: float
+    ambiguity: float
     stability: Stability
     higher: tuple[float, ...] = ()
 
@@ -112,10 +112,10 @@ class Fit:
     def unique(self) -> bool:
         """False if quite other constants, found from another start, fit the tests as well.
 
-        Planar tests, for one, do not determine the sign of α. ``rivalry`` is the relative
+        Planar tests, for one, do not determine the sign of α. ``ambiguity`` is the relative
         difference that they make to the stress of any of the three tests.
         """
-        return self.rivalry < RIVAL
+        return self.ambiguity < SAME_STRESS
 
     @property
     def determined(self) -> bool:
@@ -157,7 +157,7 @@ def judged(data: Measurements, problem: Weighted, model: str, found: Estimate) -
         misfit=_misfit(data, difference),
         aicc=_aicc(relative, problem.informative, free + 1),
         vanished=found.vanished,
-        rivalry=found.rivalry,
+        ambiguity=found.ambiguity,
         stability=stability(found.mu, found.alpha, found.higher),
         higher=found.higher,
     )

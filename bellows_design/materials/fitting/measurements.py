@@ -51,9 +51,13 @@ _LONGEST_NUMBER = 40
 
 @dataclass(frozen=True, eq=False)
 class Measurements:
-    """Points of homogeneous tests: ``stretch`` (n,), ``stress`` (n,) nominal in MPa, ``mode`` (n,).
+    """Points of homogeneous tests. Made by ``load_measurements``, which checks every bound.
 
-    ``mode`` counts along ``MODES``. Made by ``load_measurements``, which checks every bound.
+    Attributes:
+        name: What messages call them.
+        stretch: Length over initial length. *Shape:* (n,).
+        stress: Nominal stress, MPa. *Shape:* (n,).
+        mode: Number of each point's test along ``MODES``. *Shape:* (n,).
     """
 
     name: str

@@ -64,7 +64,7 @@ class _Solution(NamedTuple):
 
     mu: Reals
     alpha: Reals
-    rivalry: float
+    ambiguity: float
 
 
 def _solved(problem: Weighted, form: tuple[float | None, ...]) -> _Solution:
@@ -76,11 +76,11 @@ def _solved(problem: Weighted, form: tuple[float | None, ...]) -> _Solution:
     errors = [math.sqrt(_squares(few, *each) / few.informative) for each in refined]
     best = refined[int(np.argmin(errors))]
     bound = max(min(errors), SAME_ERROR) * math.exp(SAME_LIKELIHOOD / (2 * few.informative))
-    rivals = [each for each, error in zip(refined, errors, strict=True) if error <= bound]
-    rivalry = max(_distance(few, best, each) for each in rivals)
+    equals = [each for each, error in zip(refined, errors, strict=True) if error <= bound]
+    ambiguity = max(_distance(few, best, each) for each in equals)
     if few.logs.size < problem.logs.size:
         best = _refined(problem, best[1])
-    return _Solution(*best, rivalry)
+    return _Solution(*best, ambiguity)
 
 
 def _distance(problem: Weighted, ours: tuple[Reals, Reals], other: tuple[Reals, Reals]) -> float:
@@ -159,7 +159,7 @@ def _estimate(
         constants=_constants(mu * problem.unit, alpha, fixed, errors, freedom),
         squares=squares,
         vanished=bool((np.abs(problem.columns(alpha) * mu).max(axis=0) < VANISHED).any()),
-        rivalry=solution.rivalry,
+        ambiguity=solution.ambiguity,
     )
 
 

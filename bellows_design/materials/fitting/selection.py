@@ -51,7 +51,7 @@ def fit(data: Measurements, model: str = BEST) -> Choice:
         raise DesignError(_too_few(data, problem, automatic[0]))
     tried: list[Fit] = []
     for each in possible:
-        if not _is_hopeless(each, tried):
+        if not _cannot_be_better(each, tried):
             tried.append(each.fitter(data, problem, each))
     return Choice(_best(tried), tuple(tried))
 
@@ -77,7 +77,7 @@ def _too_few(data: Measurements, problem: Weighted, model: FitModel) -> str:
     )
 
 
-def _is_hopeless(model: FitModel, tried: Sequence[Fit]) -> bool:
+def _cannot_be_better(model: FitModel, tried: Sequence[Fit]) -> bool:
     """True if no larger model can be better: the error is at its floor, or terms go unused."""
     smaller = [each for each in tried if each.free_constants < model.constants]
     return any(

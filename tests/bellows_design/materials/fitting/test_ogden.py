@@ -153,7 +153,7 @@ def test_planar_tests_alone_do_not_tell_the_sign_of_an_exponent() -> None:
     found = fit_model(made(((1.5,), (3.0,)), ("planar",)), "ogden1")
     assert abs(found.alpha[0]) == pytest.approx(3.0) and found.relative_error < 1e-7
     assert all(constant.determined for constant in found.constants)
-    assert not found.unique and not found.determined and found.rivalry > 0.5
+    assert not found.unique and not found.determined and found.ambiguity > 0.5
     assert fit_model(made(((1.5,), (3.0,)), ("planar", "uniaxial")), "ogden1").unique
 
 
