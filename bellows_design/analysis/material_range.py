@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from bellows_design.materials.library import Material
+from bellows_design.materials.material import Material
 from solver.material.homogeneous import Reals
 from solver.material.stability import Constants, drucker_margin, shear_margin
 

@@ -10,8 +10,10 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from bellows_design.design.bellows_parameters import SMALLEST_FEATURE, BellowsParameters
+from bellows_design.analysis.model_names import ModelName
+from bellows_design.design.bellows_parameters import BellowsParameters
 from bellows_design.design.design import Design
+from bellows_design.design.lengths import SMALLEST_FEATURE
 from bellows_design.errors import DesignError
 
 if TYPE_CHECKING:
@@ -146,9 +148,15 @@ def _actuator(design: Design, mesh: Mesh, symmetry: dict[str, int]) -> Problem:
     )
 
 
-UNIT_CELL = AnalysisModel("unit-cell", _cell_solid, _cell_problem, share=4, levels=3, growth=2.0)
-HALF = AnalysisModel("half", _half_solid, _half_problem, share=2, levels=2, growth=1.6)
-FULL = AnalysisModel("full", _full_solid, _full_problem, share=1, levels=2, growth=1.6)
+UNIT_CELL = AnalysisModel(
+    ModelName.UNIT_CELL.value, _cell_solid, _cell_problem, share=4, levels=3, growth=2.0
+)
+HALF = AnalysisModel(
+    ModelName.HALF.value, _half_solid, _half_problem, share=2, levels=2, growth=1.6
+)
+FULL = AnalysisModel(
+    ModelName.FULL.value, _full_solid, _full_problem, share=1, levels=2, growth=1.6
+)
 FREE_CELL = replace(UNIT_CELL, name="free-cell", problem=_free_cell_problem)
 MODELS = {model.name: model for model in (UNIT_CELL, HALF, FULL)}
 

@@ -21,7 +21,8 @@ from bellows_design.analysis.models import HALF, UNIT_CELL, AnalysisModel, choos
 from bellows_design.analysis.whole_actuator import reading
 from bellows_design.benchmark.reference import STORED, Reference, reference_of
 from bellows_design.benchmark.series import Level, Series, Work, finest_of
-from bellows_design.design.design import Design, load_design
+from bellows_design.design.design import Design
+from bellows_design.design.shipped import load_design
 from bellows_design.errors import DesignError
 from bellows_design.machine import Machine, machine, peak_memory_mib
 from bellows_design.progress import SILENCE, Progress

@@ -14,7 +14,6 @@ from __future__ import annotations
 
 import hashlib
 import json
-import math
 import os
 import shutil
 from collections.abc import Mapping
@@ -22,14 +21,11 @@ from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from bellows_design.errors import BellowsError, DesignError, quoted
+from bellows_design.errors import BellowsError, DesignError
 from bellows_design.export.formats import WRITERS, Part
-from bellows_design.files.atomic import (
-    open_to_readers,
-    remove_leftovers,
-    replacing,
-    temporary_beside,
-)
+from bellows_design.files.atomic import open_to_readers, remove_leftovers, temporary_beside
+from bellows_design.files.json_files import write_json
+from bellows_design.validation.quoting import quoted
 
 if TYPE_CHECKING:
     from bellows_design.approval import Verdict
@@ -95,30 +91,6 @@ def withdraw(name: str, output_root: Path) -> Path | None:
     with suppress(OSError):  # other people's files keep the folder
         folder.rmdir()
     return folder
-
-
-def write_json(content: Mapping[str, Any], path: Path) -> None:
-    """Write ``content`` as JSON, completely or not at all."""
-    with replacing(path) as temporary:
-        temporary.write_text(json_text(content), "utf-8")
-
-
-def json_text(content: Mapping[str, Any]) -> str:
-    """``content`` as JSON; numbers that are not finite, which JSON lacks, become null."""
-    return json.dumps(_finite(content), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
-
-
-def _finite(value: Any) -> Any:
-    if isinstance(value, Mapping):
-        return {str(key): _finite(inner) for key, inner in value.items()}
-    if isinstance(value, list | tuple):
-        return [_finite(inner) for inner in value]
-    if isinstance(value, str | int | None):
-        return value
-    if isinstance(value, Path):
-        return str(value)
-    number = float(value)  # also NumPy's
-    return number if math.isfinite(number) else None
 
 
 def _fill(folder: Path, part: Part, verdict: Verdict, grounds: Mapping[str, Any]) -> None:

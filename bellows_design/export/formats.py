@@ -12,9 +12,10 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
-from bellows_design.errors import DesignError, quoted
+from bellows_design.errors import DesignError
 from bellows_design.files.atomic import replacing
 from bellows_design.geometry.tessellation import ClosedMesh
+from bellows_design.validation.quoting import quoted
 
 if TYPE_CHECKING:
     import cadquery as cq

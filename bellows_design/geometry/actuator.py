@@ -12,13 +12,10 @@ import math
 
 import cadquery as cq
 
-from bellows_design.design.bellows_parameters import (
-    SMALLEST_FEATURE,
-    BellowsParameters,
-    Indent,
-    Port,
-    snapped_radius,
-)
+from bellows_design.design.bellows_parameters import BellowsParameters
+from bellows_design.design.indent import Indent
+from bellows_design.design.lengths import SMALLEST_FEATURE, snapped_radius
+from bellows_design.design.port import Port
 from bellows_design.geometry.named_solids import (
     NamedSolid,
     box,

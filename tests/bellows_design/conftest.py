@@ -13,10 +13,8 @@ from bellows_design.analysis.budget import DEFAULT, Budget
 from bellows_design.design.design import Design
 from bellows_design.export.formats import Part
 from bellows_design.geometry.tessellation import tessellate
-from bellows_design.progress import Progress, Silence
+from bellows_design.progress import SILENCE, Progress
 from printers import PrintabilityReport
-
-SILENCE = Silence()
 
 
 @pytest.fixture(scope="session")

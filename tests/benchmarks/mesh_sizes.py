@@ -16,8 +16,8 @@ from bellows_design.analysis.mesh_plan import first_plan
 from bellows_design.analysis.mesh_sequence import next_plan
 from bellows_design.analysis.models import HALF, UNIT_CELL
 from bellows_design.benchmark.study import computations
-from bellows_design.design.design import load_design, shipped_designs
 from bellows_design.design.overrides import with_overrides
+from bellows_design.design.shipped import load_design, shipped_designs
 
 AMPLE = Budget(memory=100.0, mesh_seconds=3600.0)
 EXTREME = {

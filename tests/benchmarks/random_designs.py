@@ -18,7 +18,8 @@ import numpy as np
 
 from bellows_design.analysis.evaluate import evaluate
 from bellows_design.analysis.evaluation import Evaluation
-from bellows_design.design.design import Design, load_design
+from bellows_design.design.design import Design
+from bellows_design.design.shipped import load_design
 from solver import Solution
 from solver.assembly.assembly import Assembly
 

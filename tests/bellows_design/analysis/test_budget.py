@@ -15,8 +15,9 @@ from bellows_design.analysis.budget import DEFAULT, LEAST_MEMORY, Budget, defaul
 from bellows_design.analysis.evaluate import evaluate
 from bellows_design.analysis.mesh_plan import first_plan
 from bellows_design.analysis.models import FULL, HALF, UNIT_CELL, AnalysisModel
-from bellows_design.design.design import Design, load_design, shipped_designs
+from bellows_design.design.design import Design
 from bellows_design.design.overrides import with_overrides
+from bellows_design.design.shipped import load_design, shipped_designs
 from bellows_design.errors import DesignError
 
 HONEST = 1.5

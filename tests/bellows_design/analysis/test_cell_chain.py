@@ -11,8 +11,9 @@ from bellows_design.analysis.cell_chain import chain
 from bellows_design.analysis.mesh_plan import first_plan
 from bellows_design.analysis.models import UNIT_CELL
 from bellows_design.analysis.wall_contact import WallContact, contact_of
-from bellows_design.design.design import Design, load_design
+from bellows_design.design.design import Design
 from bellows_design.design.overrides import with_overrides
+from bellows_design.design.shipped import load_design
 from bellows_design.geometry.actuator import half_body
 from solver import Mesh, Problem, Solution, rotation
 

@@ -10,8 +10,10 @@ import pytest
 
 from bellows_design.analysis.mesh_plan import finer_plan, first_plan
 from bellows_design.analysis.models import FULL, HALF, UNIT_CELL, AnalysisModel
-from bellows_design.design.bellows_parameters import BellowsParameters, Indent
-from bellows_design.design.design import Design, load_design
+from bellows_design.design.bellows_parameters import BellowsParameters
+from bellows_design.design.design import Design
+from bellows_design.design.indent import Indent
+from bellows_design.design.shipped import load_design
 from bellows_design.geometry.named_solids import NamedSolid
 from bellows_design.study.paper import TABLE_4, Result
 from solver import Mesh, SolverOptions, solve

@@ -16,8 +16,9 @@ from bellows_design.analysis.models import (
     shortened,
 )
 from bellows_design.design.bellows_parameters import BellowsParameters
-from bellows_design.design.design import Design, load_design, shipped_designs
+from bellows_design.design.design import Design
 from bellows_design.design.overrides import with_overrides
+from bellows_design.design.shipped import load_design, shipped_designs
 from bellows_design.study.paper import TABLE_4
 
 

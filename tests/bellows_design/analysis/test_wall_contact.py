@@ -23,8 +23,9 @@ from bellows_design.analysis.wall_contact import (
     contact_of,
 )
 from bellows_design.design.bellows_parameters import BellowsParameters
-from bellows_design.design.design import Design, load_design
+from bellows_design.design.design import Design
 from bellows_design.design.overrides import with_overrides
+from bellows_design.design.shipped import load_design
 from solver import Problem, Solution, SolverOptions, solve
 
 Array = NDArray[np.float64]

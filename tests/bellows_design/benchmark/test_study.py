@@ -24,7 +24,7 @@ from bellows_design.benchmark.reference import Reference
 from bellows_design.benchmark.series import Level, Series, TrueErrors, Work, finest_of
 from bellows_design.benchmark.study import Study, computations
 from bellows_design.machine import Machine, machine
-from bellows_design.reports.tables import benchmark_tables
+from bellows_design.reports.benchmark import benchmark_tables
 
 Bellows = Callable[..., tuple[int, str, str]]
 
@@ -62,7 +62,7 @@ def text_of(study: Study) -> str:
     """The tables as an 80 columns wide terminal shows them."""
     console = Console(width=80, soft_wrap=True, highlight=False, markup=False)
     with console.capture() as capture:
-        for line in benchmark_tables(json.loads(json.dumps(study.to_dict()))):
+        for line in benchmark_tables(study):
             console.print(line)
     return capture.get()
 
@@ -360,5 +360,5 @@ def test_a_plot_of_a_single_mesh_without_errors_is_drawn_too(tmp_path: Path) -> 
     from bellows_design.reports.benchmark_plot import plot_benchmark
 
     alone = series(LEVELS[0], reference=finest_of("unit-cell", LEVELS[:1]))
-    plot_benchmark(made_study(alone).to_dict(), tmp_path / "alone.png")
+    plot_benchmark(made_study(alone), tmp_path / "alone.png")
     assert (tmp_path / "alone.png").stat().st_size > 10_000
