@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from bellows_design.analysis.budget import DEFAULT, Budget
+from bellows_design.budget import DEFAULT, Budget
 from bellows_design.design.design import Design
 from bellows_design.export.formats import Part
 from bellows_design.progress import SILENCE, Progress

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING
 
-from bellows_design.analysis.budget import DEFAULT, Budget
 from bellows_design.analysis.models import AnalysisModel
+from bellows_design.budget import DEFAULT, Budget
 from bellows_design.design.design import Design
 
 if TYPE_CHECKING:

@@ -7,7 +7,6 @@ from dataclasses import astuple
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from bellows_design.analysis.budget import DEFAULT, Budget
 from bellows_design.analysis.computation import Computation
 from bellows_design.analysis.error_estimate import error_estimate
 from bellows_design.analysis.evaluation import (
@@ -26,6 +25,7 @@ from bellows_design.analysis.whole_actuator import (
     position,
     reading,
 )
+from bellows_design.budget import DEFAULT, Budget
 from bellows_design.design.design import Design
 from bellows_design.errors import DesignError
 from bellows_design.progress import SILENCE, Progress

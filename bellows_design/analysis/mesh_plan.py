@@ -10,8 +10,8 @@ from io import BytesIO
 import cadquery as cq
 from OCP.BRepAdaptor import BRepAdaptor_Surface
 
-from bellows_design.analysis.budget import DEFAULT, Budget
 from bellows_design.analysis.models import thinnest_wall
+from bellows_design.budget import DEFAULT, Budget
 from bellows_design.design.design import Design
 from bellows_design.errors import DesignError
 from bellows_design.geometry.named_solids import NamedSolid

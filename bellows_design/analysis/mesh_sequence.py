@@ -11,9 +11,9 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from bellows_design.analysis.budget import DEFAULT, Budget
 from bellows_design.analysis.computation import Computation, Seconds, SolvedMesh
 from bellows_design.analysis.models import FREE_CELL, HALF, UNIT_CELL, AnalysisModel, shortened
+from bellows_design.budget import DEFAULT, Budget
 from bellows_design.design.design import Design
 from bellows_design.progress import SILENCE, Progress
 

@@ -12,7 +12,6 @@ from functools import cache
 from importlib.resources.abc import Traversable
 from typing import TYPE_CHECKING, Any
 
-from bellows_design.analysis.budget import DEFAULT, Budget
 from bellows_design.analysis.computation import Computation, Seconds
 from bellows_design.analysis.error_estimate import error_estimate
 from bellows_design.analysis.evaluate import mesh_size
@@ -21,6 +20,7 @@ from bellows_design.analysis.models import HALF, UNIT_CELL, AnalysisModel, choos
 from bellows_design.analysis.whole_actuator import reading
 from bellows_design.benchmark.reference import STORED, Reference, reference_of
 from bellows_design.benchmark.series import Level, Series, Work, finest_of
+from bellows_design.budget import DEFAULT, Budget
 from bellows_design.design.design import Design
 from bellows_design.design.shipped import load_design
 from bellows_design.errors import DesignError

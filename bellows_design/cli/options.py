@@ -11,7 +11,7 @@ import typer
 from bellows_design.materials.laws import FIT_CHOICES
 
 if TYPE_CHECKING:
-    from bellows_design.analysis.budget import Budget
+    from bellows_design.budget import Budget
     from bellows_design.design.design import Design
 
 DesignName = Annotated[
@@ -101,7 +101,7 @@ class BudgetOptions:
 
     def budget(self) -> Budget:
         """The limits given, and the usual ones of those that are not. Raises ``DesignError``."""
-        from bellows_design.analysis.budget import DEFAULT, Budget
+        from bellows_design.budget import DEFAULT, Budget
 
         return Budget(
             DEFAULT.memory if self.memory is None else self.memory,

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 from fakes import fake_report
 
-from bellows_design.analysis.budget import DEFAULT, Budget
+from bellows_design.budget import DEFAULT, Budget
 from bellows_design.design.design import Design
 from bellows_design.export.formats import Part
 from bellows_design.geometry.tessellation import tessellate

@@ -10,12 +10,12 @@ from __future__ import annotations
 
 import sys
 
-from bellows_design.analysis.budget import Budget
 from bellows_design.analysis.computation import Computation
 from bellows_design.analysis.mesh_plan import first_plan
 from bellows_design.analysis.mesh_sequence import next_plan
 from bellows_design.analysis.models import HALF, UNIT_CELL
 from bellows_design.benchmark.study import computations
+from bellows_design.budget import Budget
 from bellows_design.design.overrides import with_overrides
 from bellows_design.design.shipped import load_design, shipped_designs
 

@@ -23,12 +23,12 @@ from pathlib import Path
 from typing import Any
 
 from bellows_design import load_design
-from bellows_design.analysis.budget import Budget
 from bellows_design.analysis.computation import Computation
 from bellows_design.analysis.evaluate import evaluate, mesh_size
 from bellows_design.analysis.mesh_sequence import refined
 from bellows_design.analysis.models import HALF
 from bellows_design.analysis.whole_actuator import reading
+from bellows_design.budget import Budget
 from bellows_design.design.design import Design
 from bellows_design.study.paper import TABLE_4
 from bellows_design.versions import versions

@@ -11,13 +11,13 @@ import pytest
 
 from bellows_design import DesignError, load_design, with_overrides
 from bellows_design.analysis import wall_contact
-from bellows_design.analysis.budget import Budget
 from bellows_design.analysis.evaluate import evaluate, evaluation_of, write_vtu
 from bellows_design.analysis.evaluation import Evaluation, LoadedState
 from bellows_design.analysis.mesh_plan import first_plan
 from bellows_design.analysis.mesh_sequence import affordable_plan, next_plan, refined
 from bellows_design.analysis.models import HALF, UNIT_CELL
 from bellows_design.analysis.wall_contact import WallContact
+from bellows_design.budget import Budget
 from bellows_design.design.design import Design
 from bellows_design.study.paper import TABLE_4
 from solver import solve

@@ -17,10 +17,10 @@ from fakes import FakeEvaluation, fake_report
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from bellows_design.analysis.budget import Budget
 from bellows_design.analysis.model_names import ModelName
 from bellows_design.analysis.models import MODELS
 from bellows_design.analysis.whole_actuator import Reading
+from bellows_design.budget import Budget
 from bellows_design.cli.answer import explained, stdout_is_stderr
 from bellows_design.cli.system_libraries import INSTALL, PACKAGES, missing_library
 from bellows_design.design.design import Design

@@ -10,11 +10,12 @@ from typing import Any
 import pytest
 from fakes import FakeEvaluation
 
-from bellows_design.analysis import budget, mesh_plan
-from bellows_design.analysis.budget import DEFAULT, LEAST_MEMORY, Budget, default_memory
+from bellows_design import budget
+from bellows_design.analysis import mesh_plan
 from bellows_design.analysis.evaluate import evaluate
 from bellows_design.analysis.mesh_plan import first_plan
 from bellows_design.analysis.models import FULL, HALF, UNIT_CELL, AnalysisModel
+from bellows_design.budget import DEFAULT, LEAST_MEMORY, Budget, default_memory
 from bellows_design.design.design import Design
 from bellows_design.design.overrides import with_overrides
 from bellows_design.design.shipped import load_design, shipped_designs
