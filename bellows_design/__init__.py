@@ -7,19 +7,28 @@ from typing import TYPE_CHECKING
 from bellows_design.lazy_names import imported_when_asked_for
 
 if TYPE_CHECKING:
-    from bellows_design.design.design import Design, load_design
+    from bellows_design.design.design import Design
     from bellows_design.design.overrides import with_overrides
-    from bellows_design.errors import DesignError
+    from bellows_design.design.shipped import load_design
+    from bellows_design.errors import BellowsError, DesignError
 
 __version__ = "0.1.0"
 
-__all__ = ["Design", "DesignError", "__version__", "load_design", "with_overrides"]
+__all__ = [
+    "BellowsError",
+    "Design",
+    "DesignError",
+    "__version__",
+    "load_design",
+    "with_overrides",
+]
 
 __getattr__ = imported_when_asked_for(
     __name__,
     {
-        "design.design": ("Design", "load_design"),
+        "design.design": ("Design",),
         "design.overrides": ("with_overrides",),
-        "errors": ("DesignError",),
+        "design.shipped": ("load_design",),
+        "errors": ("BellowsError", "DesignError"),
     },
 )

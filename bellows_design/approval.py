@@ -12,52 +12,19 @@ from __future__ import annotations
 
 import math
 from dataclasses import asdict, dataclass
-from typing import Any, Literal, Protocol
+from typing import TYPE_CHECKING, Any, Literal
 
 from bellows_design.design.design import Design
 from printers import PrintabilityReport
 
+if TYPE_CHECKING:
+    from bellows_design.analysis.evaluation import LoadedState
+    from bellows_design.analysis.material_range import ReachedStrain
+
 REQUIRED_RULES = ("watertight", "airtightness", "minimum_lines", "cross_section")
-"""Rules a report must contain, else their silence would count as consent."""
+"""Rules a report must contain: one that was not checked is not a pass."""
 
 Kind = Literal["printability", "convergence", "stress", "accuracy", "strain"]
-
-
-class ErrorEstimate(Protocol):
-    """Part of an evaluation: how far off its numbers may be, in percent of themselves."""
-
-    @property
-    def max_von_mises_percent(self) -> float | None: ...
-
-
-class Strain(Protocol):
-    """Part of an evaluation: how far the material is strained, as fractions."""
-
-    @property
-    def highest(self) -> float: ...
-    @property
-    def elongation_at_break(self) -> float | None: ...
-    @property
-    def breaks(self) -> bool: ...
-
-
-class Evaluated(Protocol):
-    """What approval needs to know of an evaluation."""
-
-    @property
-    def converged(self) -> bool: ...
-    @property
-    def message(self) -> str: ...
-    @property
-    def pressure_mpa(self) -> float: ...
-    @property
-    def max_von_mises_mpa(self) -> float: ...
-    @property
-    def error_estimate(self) -> ErrorEstimate: ...
-    @property
-    def strain(self) -> Strain: ...
-    @property
-    def warnings(self) -> tuple[str, ...]: ...
 
 
 @dataclass(frozen=True)
@@ -74,7 +41,13 @@ class Reason:
 
 @dataclass(frozen=True)
 class Verdict:
-    """Approved, or refused for all of ``reasons``; ``warnings`` decide nothing."""
+    """Approved, or refused for all of its reasons.
+
+    Attributes:
+        reasons: What speaks against the design, from printability and evaluation; empty if it is
+            approved.
+        warnings: Sentences that decide nothing.
+    """
 
     reasons: tuple[Reason, ...]
     warnings: tuple[str, ...] = ()
@@ -98,10 +71,18 @@ class Verdict:
         }
 
 
-def decide(design: Design, report: PrintabilityReport, evaluation: Evaluated) -> Verdict:
-    """The verdict on ``design`` from its printability report and its evaluation."""
-    reasons = (*_print_reasons(report), *_load_reasons(design, evaluation))
-    return Verdict(reasons, evaluation.warnings)
+def decide(design: Design, report: PrintabilityReport, state: LoadedState) -> Verdict:
+    """The verdict on ``design``.
+
+    Args:
+        design: States the pressure to be reached (MPa) and the limit of the von Mises stress (MPa).
+        report: Printability of its part.
+        state: The actuator under pressure; an ``Evaluation`` is one.
+
+    Returns:
+        All reasons against the design; approval where there is none.
+    """
+    return Verdict((*_print_reasons(report), *_load_reasons(design, state)), state.warnings)
 
 
 def _print_reasons(report: PrintabilityReport) -> tuple[Reason, ...]:
@@ -119,16 +100,16 @@ def _print_reasons(report: PrintabilityReport) -> tuple[Reason, ...]:
     return failed + missing
 
 
-def _load_reasons(design: Design, evaluation: Evaluated) -> tuple[Reason, ...]:
-    required, reached = design.load.pressure, evaluation.pressure_mpa
-    if not evaluation.converged or not reached / required >= 1 - 1e-9:
-        told = f": {evaluation.message}" if evaluation.message else "."
-        message = f"The solver reached {reached:.4g} MPa of {required:g} MPa{told}"
+def _load_reasons(design: Design, state: LoadedState) -> tuple[Reason, ...]:
+    required, reached = design.load.pressure, state.pressure_mpa
+    if not state.converged or not reached / required >= 1 - 1e-9:
+        why = f": {state.message}" if state.message else "."
+        message = f"The solver reached {reached:.4g} MPa of {required:g} MPa{why}"
         return (Reason("convergence", "pressure", reached, required, "MPa", message),)
-    return (*_stress_reasons(design.max_von_mises, evaluation), *_strain_reasons(evaluation.strain))
+    return (*_stress_reasons(design.max_von_mises, state), *_strain_reasons(state.strain))
 
 
-def _strain_reasons(strain: Strain) -> tuple[Reason, ...]:
+def _strain_reasons(strain: ReachedStrain) -> tuple[Reason, ...]:
     limit = strain.elongation_at_break
     if limit is None or not strain.breaks:
         return ()
@@ -137,8 +118,8 @@ def _strain_reasons(strain: Strain) -> tuple[Reason, ...]:
     return (Reason("strain", "elongation_at_break", reached, allowed, "%", message),)
 
 
-def _stress_reasons(limit: float, evaluation: Evaluated) -> tuple[Reason, ...]:
-    stress, percent = evaluation.max_von_mises_mpa, evaluation.error_estimate.max_von_mises_percent
+def _stress_reasons(limit: float, state: LoadedState) -> tuple[Reason, ...]:
+    stress, percent = state.max_von_mises_mpa, state.error_estimate.max_von_mises_percent
     if not math.isfinite(stress) or percent is None or not math.isfinite(percent):
         message = f"The highest von Mises stress, {stress:.3f} MPa, has no error estimate."
         return (Reason("accuracy", "max_von_mises", stress, limit, "MPa", message),)

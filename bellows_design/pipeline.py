@@ -1,35 +1,41 @@
-"""A design's way through the house: part, print check, evaluation, verdict, files."""
+"""All stages in order: the part, its printability, its evaluation, the verdict, the files."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from bellows_design.analysis.budget import DEFAULT, Budget
+from bellows_design.budget import DEFAULT, Budget
 from bellows_design.design.design import Design
 from bellows_design.export.formats import Part
-from bellows_design.progress import Progress, Silence
+from bellows_design.progress import SILENCE, Progress
 
 if TYPE_CHECKING:
-    from bellows_design.analysis.evaluation import Evaluation
+    from bellows_design.analysis.evaluation import Evaluation, LoadedState
     from bellows_design.approval import Verdict
     from printers.report import PrintabilityReport
-
-SILENCE = Silence()
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """What a run found out, and where the approved files are (None if refused)."""
+    """What a run found out.
+
+    Attributes:
+        design: The design that was run.
+        report: Printability of its part.
+        evaluation: The actuator under its design pressure.
+        verdict: Approval, or all reasons against it.
+        folder: Where the approved files are; None if the design is refused.
+        withdrawn: Folder of an earlier approved export that this refusal took back.
+    """
 
     design: Design
     report: PrintabilityReport
     evaluation: Evaluation
     verdict: Verdict
-    folder: Path | None
-    withdrawn: Path | None
-    """Folder of an earlier approved export that this refusal took back."""
+    folder: Path | None = None
+    withdrawn: Path | None = None
 
     def to_dict(self) -> dict[str, Any]:
         """Plain values for JSON."""
@@ -44,10 +50,64 @@ class Outcome:
         }
 
 
-def build_part(design: Design) -> Part:
-    """The design's solid as printed and its watertight mesh.
+def run(
+    design: Design,
+    output_root: Path,
+    progress: Progress = SILENCE,
+    budget: Budget = DEFAULT,
+) -> Outcome:
+    """Build, check and evaluate ``design``, decide, and export it if it is approved.
 
-    Raises ``GeometryError`` or ``TessellationError`` (both ``ValueError``) if there is none.
+    Every rule is applied even after one has failed, so that a refusal names all reasons. Where
+    only the estimated error keeps the verdict open, the mesh is refined and decided upon again, as
+    far as the budget allows.
+
+    Args:
+        design: What is to be printed and pressurised.
+        output_root: Folder of the exports; files appear in its folder ``NAME`` if the design is
+            approved, and an earlier export there is withdrawn if it is not.
+        progress: Listens to stages and load.
+        budget: Memory (GiB) and seconds that a mesh may take.
+
+    Returns:
+        Printability, evaluation, verdict, and what became of the files.
+
+    Raises:
+        BellowsError: No solid, no watertight mesh, a first mesh beyond the budget, an unknown
+            printer, or a place for the files that is taken by others.
+        MeshingError: No usable mesh, or none in time.
+        OSError: The files could not be written; then nothing has changed.
+    """
+    from bellows_design.analysis.evaluate import evaluate
+    from bellows_design.approval import decide
+    from bellows_design.export.approved import require_place
+
+    def undecided(state: LoadedState) -> bool:
+        return decide(design, report, state).undecided
+
+    require_place(design.name, output_root)
+    progress.stage("geometry")
+    part = build_part(design)
+    progress.stage("check")
+    report = check(design, part)
+    evaluation = evaluate(design, progress=progress, budget=budget, refine_while=undecided)
+    verdict = decide(design, report, evaluation)
+    return _settled(Outcome(design, report, evaluation, verdict), part, output_root)
+
+
+def build_part(design: Design) -> Part:
+    """The printed part of ``design``.
+
+    Args:
+        design: Twelve numbers, port and, if there is one, indent, mm.
+
+    Returns:
+        The solid as printed and its watertight triangle mesh, mm, with the labels of the design.
+
+    Raises:
+        DesignError: Indent or port do not fit the bellows.
+        GeometryError: The CAD kernel cannot build the solid.
+        TessellationError: The solid's triangles do not close.
     """
     from bellows_design.geometry.actuator import printed_part
     from bellows_design.geometry.tessellation import tessellate
@@ -57,7 +117,19 @@ def build_part(design: Design) -> Part:
 
 
 def check(design: Design, part: Part, printer: str | None = None) -> PrintabilityReport:
-    """Printability of ``part`` on the design's printer, or on another by name or path."""
+    """Printability of ``part``.
+
+    Args:
+        design: Declares walls, gaps, the port's opening and the limits of the cross-section, mm.
+        part: What ``build_part`` made of it.
+        printer: Name of a printer profile, or path of a TOML file, instead of the design's.
+
+    Returns:
+        The result of every rule, measured and required.
+
+    Raises:
+        PrintersError: No such profile, or one that is none.
+    """
     from bellows_design.printability import printed_model
     from printers import check_printability, load_profile
 
@@ -70,53 +142,23 @@ def check_dict(design: Design, report: PrintabilityReport) -> dict[str, Any]:
     return {"design": design.name, "digest": design.digest, **report.to_dict()}
 
 
-def run(
-    design: Design,
-    output_root: Path,
-    progress: Progress = SILENCE,
-    budget: Budget = DEFAULT,
-) -> Outcome:
-    """Take ``design`` all the way; its files appear below ``output_root`` only if it is approved.
-
-    Every rule is applied even after one has failed, so that a refusal names all reasons. Where
-    only the estimated error keeps the verdict open, the mesh is refined and decided upon again, as
-    far as the ``budget`` allows.
-    """
-    from bellows_design.analysis.evaluate import evaluate, refined
-    from bellows_design.approval import decide
-    from bellows_design.export.approved import require_place
-
-    require_place(design.name, output_root)
-    progress.stage("geometry")
-    part = build_part(design)
-    progress.stage("check")
-    report = check(design, part)
-    evaluation = evaluate(design, progress=progress, budget=budget)
-    while decide(design, report, evaluation).undecided and evaluation.can_refine:
-        evaluation = refined(evaluation, progress)
-    verdict = decide(design, report, evaluation)
-    folder, withdrawn = _settle(part, design, report, evaluation, verdict, output_root)
-    return Outcome(design, report, evaluation, verdict, folder, withdrawn)
-
-
-def _settle(
-    part: Part,
-    design: Design,
-    report: PrintabilityReport,
-    evaluation: Evaluation,
-    verdict: Verdict,
-    output_root: Path,
-) -> tuple[Path | None, Path | None]:
-    """Export what is approved, withdraw what is not."""
+def _settled(found: Outcome, part: Part, output_root: Path) -> Outcome:
+    """The outcome once an approved part is exported, or an earlier export of it withdrawn."""
     from bellows_design.export.approved import export_approved, withdraw
+
+    if not found.verdict.approved:
+        return replace(found, withdrawn=withdraw(found.design.name, output_root))
+    folder = export_approved(part, found.verdict, _grounds(found), output_root)
+    return replace(found, folder=folder)
+
+
+def _grounds(found: Outcome) -> dict[str, Any]:
+    """What an approval rests on, as plain values for the manifest."""
     from bellows_design.geometry.tessellation import TOLERANCE
 
-    if not verdict.approved:
-        return None, withdraw(design.name, output_root)
-    grounds = {
-        "design": design.model_dump(mode="json", exclude_none=True),
+    return {
+        "design": found.design.model_dump(mode="json", exclude_none=True),
         "mesh_tolerance_mm": TOLERANCE,
-        "check": check_dict(design, report),
-        "evaluation": evaluation.to_dict(),
+        "check": check_dict(found.design, found.report),
+        "evaluation": found.evaluation.to_dict(),
     }
-    return export_approved(part, verdict, grounds, output_root), None

@@ -22,6 +22,7 @@ from collections.abc import Callable
 import cadquery as cq
 
 from bellows_design.design.design import Design
+from bellows_design.errors import BellowsError
 from bellows_design.geometry.actuator import printed_part
 
 METHOD = "bellows"
@@ -48,10 +49,10 @@ def bellows(design: Design) -> Callable[[cq.Workplane], cq.Workplane]:
 def register() -> None:
     """Add the method ``Workplane.bellows(design)`` to CadQuery for this process.
 
-    Raises ``ValueError``, and changes nothing, if the name is already taken by another.
+    Raises ``BellowsError``, and changes nothing, if the name is already taken by another.
     """
     if getattr(cq.Workplane, METHOD, _method) is not _method:
-        raise ValueError(f"cadquery.Workplane.{METHOD} is there already and stays as it is")
+        raise BellowsError(f"cadquery.Workplane.{METHOD} is there already and stays as it is")
     setattr(cq.Workplane, METHOD, _method)
 
 

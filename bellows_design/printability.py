@@ -1,4 +1,4 @@
-"""What a design promises the printer: its walls, gaps and the one opening it means to have."""
+"""What a design declares to the printability rules: its walls, gaps and one opening."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from printers import DeclaredGap, DeclaredWall, Opening, PrintedModel
 
 
 def printed_model(design: Design, mesh: ClosedMesh) -> PrintedModel:
-    """The design's mesh with everything its designer declares about it (mm)."""
+    """The design's mesh with its declared walls, gaps and opening, mm."""
     limits, bellows = design.limits, design.bellows
     gaps = (DeclaredGap("bubble_distance", bellows.bubble_distance),)
     return PrintedModel(

@@ -1,6 +1,6 @@
-"""Telling the user what a long run is doing: the stage, the load reached, the angle so far.
+"""What a long run is doing: the stage, the load reached, the angle so far.
 
-Goes to stderr, so that stdout stays free for results. On a terminal one line is kept up to date;
+It goes to stderr, so that stdout stays free for results. On a terminal one line is kept up to date;
 elsewhere (a log, a pipe) a line is printed for each stage and at most every two seconds within it.
 """
 
@@ -13,23 +13,23 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Protocol, TextIO
 
-QUIET_SECONDS = 2.0
-"""s. No stage shorter than this needs a word, and none longer goes without one."""
+PAUSE = 2.0
+"""s. Least time between two lines within a stage."""
 
 
 class Progress(Protocol):
-    """Listens to a run."""
+    """Receives what a run is doing."""
 
     def stage(self, name: str) -> None:
         """A stage begins: geometry, check, mesh, solve, export."""
 
     def load(self, fraction: float, angle: float) -> None:
-        """The solver stands at ``fraction`` of the load with the tip turned by ``angle`` (°)."""
+        """The solver is at ``fraction`` of the load, with the tip turned by ``angle`` (degrees)."""
 
 
 @dataclass(frozen=True)
 class Silence:
-    """Progress nobody listens to."""
+    """Progress that is not reported."""
 
     def stage(self, name: str) -> None:
         """Ignored."""
@@ -38,34 +38,38 @@ class Silence:
         """Ignored."""
 
 
-@dataclass
-class Narrator:
-    """Progress as lines of text, given to ``say``; seconds are counted by ``clock``."""
+SILENCE: Progress = Silence()
+"""The default where a run takes a ``Progress``."""
 
-    say: Callable[[str], None]
-    pause: float = QUIET_SECONDS
+
+@dataclass
+class ProgressLines:
+    """Progress as lines of text, given to ``write``; seconds are counted by ``clock``."""
+
+    write: Callable[[str], None]
+    pause: float = PAUSE
     clock: Callable[[], float] = time.monotonic
     _start: float = field(init=False)
-    _spoken: float = field(init=False, default=-1e9)
+    _written: float = field(init=False, default=-1e9)
     _stage: str = field(init=False, default="")
 
     def __post_init__(self) -> None:
         self._start = self.clock()
 
     def stage(self, name: str) -> None:
-        """Say which stage begins."""
+        """Write which stage begins."""
         self._stage = name
-        self._tell(name)
+        self._write(name)
 
     def load(self, fraction: float, angle: float) -> None:
-        """Say how far the load has come, but not more often than every ``pause`` seconds."""
-        if self.clock() - self._spoken >= self.pause:
+        """Write how far the load has come, but not more often than every ``pause`` seconds."""
+        if self.clock() - self._written >= self.pause:
             turned = f", bent {angle:.0f}°" if angle == angle else ""
-            self._tell(f"{self._stage}: {100 * fraction:.0f} % of the load{turned}")
+            self._write(f"{self._stage}: {100 * fraction:.0f} % of the load{turned}")
 
-    def _tell(self, text: str) -> None:
-        self._spoken = self.clock()
-        self.say(f"[{self._spoken - self._start:6.1f} s] {text}")
+    def _write(self, text: str) -> None:
+        self._written = self.clock()
+        self.write(f"[{self._written - self._start:6.1f} s] {text}")
 
 
 @contextmanager
@@ -76,6 +80,6 @@ def on_stderr(stream: TextIO | None = None) -> Iterator[Progress]:
         from rich.console import Console
 
         with Console(file=stream).status("") as status:
-            yield Narrator(lambda text: status.update(text.replace("[", r"\[")), pause=0.1)
+            yield ProgressLines(lambda text: status.update(text.replace("[", r"\[")), pause=0.1)
     else:
-        yield Narrator(lambda text: print(text, file=stream, flush=True))
+        yield ProgressLines(lambda text: print(text, file=stream, flush=True))

@@ -35,7 +35,7 @@ def part_surfaces(name: str) -> tuple[pv.PolyData, pv.PolyData]:
 
 def bent_surface(name: str) -> pv.PolyData:
     """The whole actuator at its design pressure, coloured by von Mises stress, MPa."""
-    solution = evaluate(load_design(name), "half").finest
+    solution = evaluate(load_design(name), "half").computation.finest
     mesh = solution.problem.mesh
     cells = {pv.CellType.QUADRATIC_TETRA: mesh.tets[:, [0, 1, 2, 3, 4, 5, 6, 7, 9, 8]]}
     half = pv.UnstructuredGrid(cells, mesh.nodes + solution.displacement)

@@ -6,8 +6,10 @@ Lengths are in mm, angles in degrees; the build direction is +z.
 
 from __future__ import annotations
 
+from printers.errors import PrintersError
 from printers.model import DeclaredGap, DeclaredWall, Opening, PrintedModel
-from printers.profile import PrinterProfile, SlicerAdvice, available_profiles, load_profile
+from printers.profile import PrinterProfile, SlicerAdvice
+from printers.profile_files import available_profiles, load_profile
 from printers.report import PrintabilityReport, RuleResult
 
 __all__ = [
@@ -17,6 +19,7 @@ __all__ = [
     "PrintabilityReport",
     "PrintedModel",
     "PrinterProfile",
+    "PrintersError",
     "RuleResult",
     "SlicerAdvice",
     "available_profiles",
@@ -26,7 +29,21 @@ __all__ = [
 
 
 def check_printability(model: PrintedModel, profile: PrinterProfile) -> PrintabilityReport:
-    """Apply every rule of the package to a part; see `printers.check.check_printability`."""
+    """Apply every rule to the part, standing as it is modelled, on this printer.
+
+    Deterministic: the same mesh always gives the same report, and another triangulation of the same
+    faces the same verdicts.
+
+    Args:
+        model: The part and what its designer declares about it.
+        profile: The printer.
+
+    Returns:
+        One result for every rule and wall, gap or place it was applied to.
+
+    Raises:
+        PrintersError: No triangle of the mesh has an area.
+    """
     from printers.check import check_printability as check  # compiled code: only when needed
 
     return check(model, profile)

@@ -1,7 +1,23 @@
-"""The error whose sentences are meant for users. Imports nothing."""
+"""The error whose sentences are meant for users, and how they quote values. Imports nothing."""
 
 from __future__ import annotations
+
+LONGEST_QUOTE = 200
+"""Characters."""
 
 
 class PrintersError(ValueError):
     """A profile or a part that cannot be checked: one sentence on what is wrong with it."""
+
+
+def quoted(value: object) -> str:
+    """``value`` as it may stand in a sentence: on one line and not too long."""
+    try:
+        return shortened(repr(value))
+    except (ValueError, RecursionError):  # 4300 digits, 1000 levels
+        return "a huge number" if isinstance(value, int) else "too much to show"
+
+
+def shortened(text: str) -> str:
+    """``text``, cut after ``LONGEST_QUOTE`` characters."""
+    return text if len(text) <= LONGEST_QUOTE else text[: LONGEST_QUOTE - 1] + "…"

@@ -13,6 +13,9 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from printers.arrays import Floats, Ints
+from printers.errors import PrintersError
+
 WallKind = Literal["lines", "layers"]
 
 SMALLEST_PART = 1.0  # mm: a part in metres or inches read as millimetres falls below or beyond
@@ -22,10 +25,16 @@ LARGEST_LENGTH = 100.0
 
 @dataclass(frozen=True)
 class DeclaredWall:
-    """A wall thickness the designer asks for, mm.
+    """A wall thickness the designer asks for.
 
-    `kind` says what it is made of: "lines" side by side (a standing wall) or "layers" on top of
-    each other (a floor or roof).
+    Attributes:
+        name: As it appears in the report.
+        thickness: mm.
+        kind: What it is made of: "lines" side by side (a standing wall) or "layers" on top of each
+            other (a floor or roof).
+
+    Raises:
+        PrintersError: The thickness is not within (0, 100] mm or the kind is unknown.
     """
 
     name: str
@@ -35,12 +44,20 @@ class DeclaredWall:
     def __post_init__(self) -> None:
         _require_length(f"wall {self.name}", self.thickness)
         if self.kind not in ("lines", "layers"):
-            raise ValueError(f"wall {self.name}: kind is {self.kind!r}, not 'lines' or 'layers'")
+            raise PrintersError(f"wall {self.name}: kind is {self.kind!r}, not 'lines' or 'layers'")
 
 
 @dataclass(frozen=True)
 class DeclaredGap:
-    """A width of air between neighbouring walls on the part's outside, mm."""
+    """A width of air between neighbouring walls on the part's outside.
+
+    Attributes:
+        name: As it appears in the report.
+        width: mm.
+
+    Raises:
+        PrintersError: The width is not within (0, 100] mm.
+    """
 
     name: str
     width: float
@@ -53,8 +70,17 @@ class DeclaredGap:
 class Opening:
     """A round hole into the cavity that is meant to be there.
 
-    `centre` (3,) mm is the middle of its mouth on the outside, `direction` (3,) the unit vector out
-    of the part, `radius` mm that of the bore.
+    Attributes:
+        name: As it appears in the report.
+        centre: Middle of its mouth on the outside, mm.
+            *Shape:* `(3,)`
+        direction: Unit vector out of the part.
+            *Shape:* `(3,)`
+        radius: Of the bore, mm.
+
+    Raises:
+        PrintersError: A number is not finite, the radius not within (0, 100] mm or the direction
+            no unit vector.
     """
 
     name: str
@@ -66,25 +92,35 @@ class Opening:
         _require_length(f"radius of opening {self.name}", self.radius)
         for label, vector in (("centre", self.centre), ("direction", self.direction)):
             if len(vector) != 3 or not all(math.isfinite(value) for value in vector):
-                raise ValueError(
+                raise PrintersError(
                     f"{label} of opening {self.name} is {vector}, not three finite numbers"
                 )
         length = math.hypot(*self.direction)
         if abs(length - 1) > 1e-3:
-            raise ValueError(f"direction of opening {self.name} has length {length:g}, not 1")
+            raise PrintersError(f"direction of opening {self.name} has length {length:g}, not 1")
 
 
 @dataclass(frozen=True, eq=False)
 class PrintedModel:
     """The closed triangle mesh of a part with its declared walls, gaps and openings.
 
-    `vertices` (n, 3) mm; `triangles` (m, 3) count from 0 and run anticlockwise seen from outside;
-    vertices may be repeated as in an STL. `cross_section_limit` is the largest allowed extent in
-    (y, z), mm. Raises ValueError when the arrays are malformed or the size betrays wrong units.
+    Attributes:
+        vertices: mm; they may be repeated as in an STL.
+            *Shape:* `(n, 3)`
+        triangles: Numbers of their vertices, from 0, anticlockwise seen from outside.
+            *Shape:* `(m, 3)`
+        walls: Thicknesses the part must have.
+        gaps: Widths of air the part must have outside.
+        openings: Every hole that is meant to lead into the cavity.
+        cross_section_limit: Largest allowed extent in (y, z), mm.
+
+    Raises:
+        PrintersError: The arrays are malformed, or the part is smaller than 1 mm or larger than
+            2 m, as happens with wrong units.
     """
 
-    vertices: NDArray[np.float64]
-    triangles: NDArray[np.int64]
+    vertices: Floats
+    triangles: Ints
     walls: tuple[DeclaredWall, ...] = ()
     gaps: tuple[DeclaredGap, ...] = ()
     openings: tuple[Opening, ...] = ()
@@ -107,23 +143,23 @@ def _read_only(values: ArrayLike, kind: type[np.generic]) -> NDArray[Any]:
 
 def _require_length(name: str, value: float, largest: float = LARGEST_LENGTH) -> None:
     if not (math.isfinite(value) and 0 < value <= largest):
-        raise ValueError(f"{name} is {value:g} mm; it must lie above 0 and up to {largest:g} mm")
+        raise PrintersError(f"{name} is {value:g} mm; it must lie above 0 and up to {largest:g} mm")
 
 
-def _require_mesh(vertices: NDArray[np.float64], triangles: NDArray[np.int64]) -> None:
+def _require_mesh(vertices: Floats, triangles: Ints) -> None:
     for name, array in (("vertices", vertices), ("triangles", triangles)):
         if array.ndim != 2 or array.shape[1] != 3 or len(array) < 4:
-            raise ValueError(f"{name} have the shape {array.shape}, not (4 or more, 3)")
+            raise PrintersError(f"{name} have the shape {array.shape}, not (4 or more, 3)")
     if not np.isfinite(vertices).all():
-        raise ValueError("vertices hold a coordinate that is not a finite number of mm")
+        raise PrintersError("vertices hold a coordinate that is not a finite number of mm")
     if triangles.min() < 0 or triangles.max() >= len(vertices):
-        raise ValueError(
+        raise PrintersError(
             f"triangles name the vertex {triangles.min()} or {triangles.max()}, "
             f"but vertices count from 0 to {len(vertices) - 1}"
         )
     largest = float(np.ptp(vertices[np.unique(triangles)], axis=0).max())
     if not SMALLEST_PART <= largest <= LARGEST_PART:
-        raise ValueError(
+        raise PrintersError(
             f"the part's largest extent is {largest:g} mm; it must lie between {SMALLEST_PART:g} "
             f"and {LARGEST_PART:g} mm (are the units millimetres?)"
         )

@@ -13,8 +13,14 @@ Verdict = Literal["pass", "warn", "fail"]
 class RuleResult:
     """One rule applied to one thing.
 
-    `rule` names the rule, `where` the wall, gap or place (mm) it was applied to; `measured` and
-    `required` are in `unit`; `message` is one sentence for people.
+    Attributes:
+        rule: Name of the rule.
+        verdict: "fail" forbids printing, "warn" does not.
+        measured: What the part has, in `unit`, or in words.
+        required: What the printer needs, in `unit`, or in words.
+        unit: Empty where there is none.
+        where: The wall, gap or place (mm) the rule was applied to.
+        message: One sentence for people.
     """
 
     rule: str
@@ -28,30 +34,47 @@ class RuleResult:
 
 @dataclass(frozen=True)
 class PrintabilityReport:
-    """All rules applied to one part for one printer; it fails as soon as one rule fails."""
+    """All rules applied to one part for one printer; it fails as soon as one rule fails.
+
+    Attributes:
+        printer: Name of the printer's profile.
+        rules: One result for every rule and thing it was applied to, always in the same order.
+    """
 
     printer: str
     rules: tuple[RuleResult, ...]
 
     @property
     def verdict(self) -> Literal["pass", "fail"]:
+        """Whether the part may be printed."""
         return "fail" if self.failures else "pass"
 
     @property
     def failures(self) -> tuple[RuleResult, ...]:
+        """Results that forbid printing."""
         return tuple(result for result in self.rules if result.verdict == "fail")
 
     @property
     def warnings(self) -> tuple[RuleResult, ...]:
+        """Results that decide nothing."""
         return tuple(result for result in self.rules if result.verdict == "warn")
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain values ready for JSON: `printer`, `verdict`, `rules`."""
+        """The report for JSON.
+
+        Returns:
+            Plain values: `printer`, `verdict` and the list `rules`.
+        """
         return {
             "printer": self.printer,
             "verdict": self.verdict,
             "rules": [asdict(result) for result in self.rules],
         }
+
+
+def pass_or_fail(holds: bool) -> Verdict:
+    """The verdict of a rule that forbids printing where it does not hold."""
+    return "pass" if holds else "fail"
 
 
 def place(point: Iterable[float]) -> str:

@@ -1,9 +1,9 @@
-"""Does a result stay where its material is known and stable?
+"""Whether a result stays where its material was tested and is stable.
 
 The strains are the principal nominal strains (stretch - 1) at the quadrature points of the finest
-mesh. Their plain extremes count, not quantiles: leaving the tests at one place, in a fillet say, is
-leaving them where the stress is highest. Elements at sharp edges are left out, as they are for the
-highest stress, since there the strain is the mesh's and not the part's.
+mesh. Their plain extremes count, not quantiles: where the strain exceeds the range of the tests,
+in a fillet for instance, the stress is highest. Elements at sharp edges are left out, as they are
+for the highest stress, since the strain there depends on the mesh.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from bellows_design.materials.library import Material
+from bellows_design.materials.material import Material
 from solver.material.homogeneous import Reals
 from solver.material.stability import Constants, drucker_margin, shear_margin
 
@@ -63,7 +63,7 @@ class ReachedStrain:
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """A sentence for everything that makes the numbers less than they seem."""
+        """A sentence for everything that makes the numbers less reliable than they look."""
         found = [self._outside(), self._broken(), self._unstable()]
         return tuple(sentence for sentence in found if sentence is not None)
 

@@ -1,4 +1,4 @@
-"""From a design to meshes of increasing fineness of a body that stands for it."""
+"""What a mesh of a body will take, before it is made: the coarsest one, and refined ones."""
 
 from __future__ import annotations
 
@@ -10,10 +10,12 @@ from io import BytesIO
 import cadquery as cq
 from OCP.BRepAdaptor import BRepAdaptor_Surface
 
-from bellows_design.analysis.budget import DEFAULT, GIB, Budget
+from bellows_design.analysis.models import thinnest_wall
+from bellows_design.budget import DEFAULT, Budget
 from bellows_design.design.design import Design
 from bellows_design.errors import DesignError
 from bellows_design.geometry.named_solids import NamedSolid
+from bellows_design.machine import GIB
 from solver import Mesh, Solution
 from solver.adaptivity.refinement import Refinement, refined_sizes
 from solver.meshing.estimate import BodySize, FaceSize, expected_elements, expected_memory
@@ -47,7 +49,7 @@ class PlannedMesh:
         return expected_memory(self.elements) / GIB
 
     @property
-    def told(self) -> str:
+    def summary(self) -> str:
         """Both numbers in words."""
         return f"about {_rounded(self.elements)} tetrahedra and take about {self.memory:.1f} GiB"
 
@@ -62,7 +64,7 @@ class PlannedMesh:
         """
         if not self.fits(budget):
             raise DesignError(
-                f"the mesh would have {self.told}, above the limit of {budget.memory:.3g} GiB; "
+                f"the mesh would have {self.summary}, above the limit of {budget.memory:.3g} GiB; "
                 "allow more with --memory if there is more, or make the thinnest wall thicker, "
                 "the actuator smaller or the model a unit-cell."
             )
@@ -86,23 +88,6 @@ def finer_plan(
     size = LARGEST_EDGE * wall
     options = MeshOptions(size, ELEMENTS_PER_CIRCLE, min(0.1, wall / 8), field)
     return PlannedMesh(solid, options)
-
-
-def first_mesh(solid: NamedSolid, design: Design) -> Mesh:
-    """Coarsest mesh that carries the load. Raises ``DesignError`` and ``MeshingError``."""
-    return first_plan(solid, design).made()
-
-
-def finer_mesh(
-    solid: NamedSolid, design: Design, solution: Solution, refinement: Refinement
-) -> Mesh:
-    """Mesh that is finer where ``solution`` is least accurate. Raises as ``first_mesh``."""
-    return finer_plan(solid, design, solution, refinement).made()
-
-
-def thinnest_wall(design: Design) -> float:
-    """Thinnest wall of bubbles and tendon, mm."""
-    return min(design.bellows.bubble_thickness, design.bellows.tendon_thickness)
 
 
 def body_size(solid: NamedSolid) -> BodySize:

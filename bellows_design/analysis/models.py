@@ -1,4 +1,4 @@
-"""The ladder of models: which body is solved for, and how it is held.
+"""The analysis models: which body is solved for, and how it is supported and loaded.
 
 From small to large: the unit cell that repeats in the middle of the actuator, half of the
 actuator, all of it. Each is exact where the next is symmetric or uniform.
@@ -10,8 +10,11 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from bellows_design.design.bellows_parameters import SMALLEST_FEATURE, BellowsParameters
+from bellows_design.analysis.model_names import ModelName
+from bellows_design.design.bellows_parameters import BellowsParameters
 from bellows_design.design.design import Design
+from bellows_design.design.lengths import SMALLEST_FEATURE
+from bellows_design.errors import DesignError
 
 if TYPE_CHECKING:
     from bellows_design.geometry.named_solids import NamedSolid
@@ -19,14 +22,14 @@ if TYPE_CHECKING:
     from solver.adaptivity.refinement import Refinement
 
 FEWEST_BUBBLES = 3
-"""From so many bubbles on there is a middle that knows nothing of the ends."""
+"""From so many bubbles on there is a middle that the ends do not affect."""
 
 
 @dataclass(frozen=True)
-class Model:
-    """A body that stands for the actuator.
+class AnalysisModel:
+    """A body that stands for the actuator, with its supports and its load.
 
-    ``solid`` builds it, ``problem`` holds and loads a mesh of it; ``share`` of them make up the
+    ``solid`` builds it, ``problem`` supports and loads a mesh of it; ``share`` of them make up the
     repeating part (the unit cell: a bubble) or the whole. ``levels`` meshes are used unless more
     accuracy is asked for; ``growth`` is how many times more elements each next one has, about.
     """
@@ -99,8 +102,6 @@ def _inner_contacts(design: Design) -> tuple[Contact, ...]:
 
 def _penetration(design: Design) -> float:
     """How far a contact pressure of the shear modulus pushes a wall through a plane, mm."""
-    from bellows_design.analysis.mesh_plan import thinnest_wall
-
     return PENETRATION * thinnest_wall(design)
 
 
@@ -147,21 +148,27 @@ def _actuator(design: Design, mesh: Mesh, symmetry: dict[str, int]) -> Problem:
     )
 
 
-UNIT_CELL = Model("unit-cell", _cell_solid, _cell_problem, share=4, levels=3, growth=2.0)
-HALF = Model("half", _half_solid, _half_problem, share=2, levels=2, growth=1.6)
-FULL = Model("full", _full_solid, _full_problem, share=1, levels=2, growth=1.6)
+UNIT_CELL = AnalysisModel(
+    ModelName.UNIT_CELL.value, _cell_solid, _cell_problem, share=4, levels=3, growth=2.0
+)
+HALF = AnalysisModel(
+    ModelName.HALF.value, _half_solid, _half_problem, share=2, levels=2, growth=1.6
+)
+FULL = AnalysisModel(
+    ModelName.FULL.value, _full_solid, _full_problem, share=1, levels=2, growth=1.6
+)
 FREE_CELL = replace(UNIT_CELL, name="free-cell", problem=_free_cell_problem)
 MODELS = {model.name: model for model in (UNIT_CELL, HALF, FULL)}
 
 
-def choose(design: Design, name: str = "auto") -> tuple[Model, str]:
+def choose(design: Design, name: str = "auto") -> tuple[AnalysisModel, str]:
     """The model called ``name``, or the smallest that answers for ``design``; and why.
 
-    Raises ``ValueError`` for an unknown name.
+    Raises ``DesignError`` for an unknown name.
     """
     if name != "auto":
         if name not in MODELS:
-            raise ValueError(f"model = {name!r} must be one of {', '.join(('auto', *MODELS))}.")
+            raise DesignError(f"model = {name!r} must be one of {', '.join(('auto', *MODELS))}.")
         return MODELS[name], "as asked for"
     count = design.bellows.bubble_count
     if count >= FEWEST_BUBBLES:
@@ -189,13 +196,17 @@ def shortened(design: Design) -> Design:
 
 
 LEAST_LENGTH = 10.0
-"""mm. Bound of ``BellowsParameters.length``; a longer stub at the tip only goes along."""
+"""mm. Bound of ``BellowsParameters.length``; a longer stub at the tip changes nothing."""
+
+
+def thinnest_wall(design: Design) -> float:
+    """Thinnest wall of bubbles and tendon, mm."""
+    return min(design.bellows.bubble_thickness, design.bellows.tendon_thickness)
 
 
 def sharp_edge_radius(design: Design) -> float:
     """How near to sharp outer edges no stress is reported, mm: a printed line rounds them."""
-    bellows = design.bellows
-    return min(SMALLEST_FEATURE, min(bellows.bubble_thickness, bellows.tendon_thickness) / 4)
+    return min(SMALLEST_FEATURE, thinnest_wall(design) / 4)
 
 
 def _material(design: Design) -> Ogden:

@@ -1,8 +1,8 @@
-"""Do walls touch under pressure? Where the model knows contact it held them apart; else it is told.
+"""Which walls touch under pressure, and how near the others come.
 
-The unit cell knows contact with its mirror images: of neighbouring bubbles, and of a chamber's
-opposite walls. Half and full actuators know none: there walls run through each other, which is
-found here.
+The unit cell models contact with its mirror images: of neighbouring bubbles, and of a chamber's
+opposite walls. Half and full actuators model none: there walls run through each other, and the
+result says so.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ FREE_ENDS = "as inner walls touch, each end is taken as half a bubble without a 
 
 
 @dataclass(frozen=True)
-class Contact:
+class WallContact:
     """How near walls come to each other.
 
     ``detected``: walls touch or run into each other: those of neighbouring bubbles outside, or
@@ -49,23 +49,23 @@ class Contact:
     note: str = ""
 
 
-def contact_of(bellows: BellowsParameters, mesh: Mesh, displacement: np.ndarray) -> Contact:
+def contact_of(bellows: BellowsParameters, mesh: Mesh, displacement: np.ndarray) -> WallContact:
     """Contact in an actuator, full or half, after ``displacement`` (n, 3), mm: none is modelled."""
     outer, itself = _outer_gap(bellows, mesh, displacement)
     inner = _inner_gap(bellows, mesh, displacement)
     touching = [_touches(outer), _touches(inner)]
     where = _named(touching[0], touching[1], itself)
     note = UNMODELLED if any(touching) else ""
-    return Contact(any(touching), outer, itself, inner, where, modelled=False, note=note)
+    return WallContact(any(touching), outer, itself, inner, where, modelled=False, note=note)
 
 
-def contact_in_cell(bellows: BellowsParameters, cell: Solution) -> Contact:
+def contact_in_cell(bellows: BellowsParameters, cell: Solution) -> WallContact:
     """Contact in the actuator that a unit cell stands for, where the solver models it."""
     _, itself = _outer_gap(bellows, *chain(bellows, cell))
     outer, inner = (image_gap(cell, surface) for surface in (OUTSIDE, CAVITY))
     within = _gap_within(cell)
     missed, touching = within is not None and within <= 0, [_touches(outer), _touches(inner)]
-    return Contact(
+    return WallContact(
         detected=missed or any(touching),
         min_gap_mm=outer,
         overlaps_itself=itself,

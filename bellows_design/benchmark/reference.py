@@ -13,7 +13,8 @@ from importlib.resources import files
 from importlib.resources.abc import Traversable
 from typing import Any
 
-from bellows_design.design.design import Design, load_design
+from bellows_design.design.design import Design
+from bellows_design.design.shipped import load_design
 
 STORED: Traversable = files("bellows_design.benchmark") / "reference.json"
 """The values that come with the package."""

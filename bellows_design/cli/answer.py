@@ -1,4 +1,4 @@
-"""One answer on stdout, everything else on stderr, and an exit status that says which it was.
+"""One answer on stdout, everything else on stderr, and an exit status.
 
 Libraries written in C print to stdout when they please; while a command works, file descriptor 1
 leads to stderr, so that a JSON answer stands alone.
@@ -6,20 +6,19 @@ leads to stderr, so that a JSON answer stands alone.
 
 from __future__ import annotations
 
-import dis
 import gc
 import os
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
-from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
 import typer
 
-from bellows_design.cli.early_signals import told
+from bellows_design.cli.early_signals import ended_by
 from bellows_design.cli.interruption import interruption_in, raising_signals
+from bellows_design.errors import BellowsError
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -27,8 +26,6 @@ if TYPE_CHECKING:
 DONE, REFUSED, BAD_INPUT, NOT_SOLVED, INTERNAL = 0, 1, 2, 3, 4
 TRACEBACK = "BELLOWS_TRACEBACK"
 """Environment variable: when set, errors show where they come from."""
-
-_OURS = ("bellows_design", "solver", "printers")
 
 OBJECTS_BETWEEN_COLLECTIONS = 50_000
 """At Python's own 700 the collector runs a thousand times while an evaluation loads its libraries,
@@ -52,7 +49,7 @@ def answer(work: Callable[[], Answer], as_json: bool) -> None:
     except BaseException as error:
         if os.environ.get(TRACEBACK) or isinstance(error, SystemExit | GeneratorExit):
             raise
-        sentence, status = told(signals.received[0]) if signals.received else explained(error)
+        sentence, status = ended_by(signals.received[0]) if signals.received else explained(error)
         typer.echo(f"bellows: {sentence}", err=True)
         if as_json:
             _print_json({"error": sentence, "exit_status": status})
@@ -73,19 +70,32 @@ def explained(error: BaseException) -> tuple[str, int]:
         return missing, INTERNAL
     interruption = interruption_in(error)
     if interruption is not None:
-        return told(interruption)
-    if type(error).__name__ == "MeshingError":  # its module imports NumPy
-        return str(error), NOT_SOLVED
-    if isinstance(error, ValueError) and _raised_by_us(error.__traceback__):
-        return str(error), BAD_INPUT
+        return ended_by(interruption)
     if isinstance(error, OSError) and error.strerror:
         place = f"{error.filename}: " if error.filename else ""
         return f"{place}{error.strerror}.", BAD_INPUT
+    status = _status_of_user_error(error)
+    if status is not None:
+        return str(error), status
     return (
         f"internal error, {type(error).__name__}: {error} "
         f"(set {TRACEBACK}=1 to see where; please report it).",
         INTERNAL,
     )
+
+
+def _status_of_user_error(error: BaseException) -> int | None:
+    """The exit status of an error whose sentence is meant for users; None for any other."""
+    if isinstance(error, BellowsError):
+        return BAD_INPUT
+    if not isinstance(error, ValueError | RuntimeError):
+        return None
+    from printers.errors import PrintersError
+    from solver.errors import MeshingError, SolverError
+
+    if isinstance(error, MeshingError):
+        return NOT_SOLVED
+    return BAD_INPUT if isinstance(error, SolverError | PrintersError) else None
 
 
 @contextmanager
@@ -124,20 +134,8 @@ def _flush_c_streams() -> None:
     ctypes.CDLL(None).fflush(None)
 
 
-def _raised_by_us(traceback: TracebackType | None) -> bool:
-    """True if a ``raise`` statement of this project threw: then the message is meant for users."""
-    if traceback is None:
-        return False
-    while traceback.tb_next is not None:
-        traceback = traceback.tb_next
-    frame = traceback.tb_frame
-    package = str(frame.f_globals.get("__name__", "")).partition(".")[0]
-    instruction = dis.opname[frame.f_code.co_code[traceback.tb_lasti]]
-    return package in _OURS and instruction in ("RAISE_VARARGS", "RERAISE")
-
-
 def _print_json(content: dict[str, Any]) -> None:
-    from bellows_design.export.approved import json_text
+    from bellows_design.files.json_files import json_text
 
     _tolerate_any_terminal()
     typer.echo(json_text(content), nl=False)
@@ -153,7 +151,7 @@ def _print_text(lines: Sequence[RenderableType]) -> None:
 
 
 def _tolerate_any_terminal() -> None:
-    """Where the terminal's encoding lacks a sign (° µ Ć), print ? rather than fail."""
+    """Where the terminal's encoding lacks a character (° µ Ć), print ? rather than fail."""
     reconfigure = getattr(sys.stdout, "reconfigure", None)
     if reconfigure is not None:
         reconfigure(errors="replace")

@@ -20,13 +20,13 @@ def leave_at_signals() -> None:
             signal.signal(number, _leave)
 
 
-def told(number: int) -> tuple[str, int]:
-    """One sentence and the exit status for a signal."""
+def ended_by(number: int) -> tuple[str, int]:
+    """One sentence and the exit status of a command that a signal ended."""
     word = "interrupted" if number == signal.SIGINT else "terminated"
     return f"{word}; nothing half-done was left behind.", 128 + number
 
 
 def _leave(number: int, frame: object) -> None:
-    sentence, status = told(number)
+    sentence, status = ended_by(number)
     os.write(2, f"bellows: {sentence}\n".encode())
     os._exit(status)

@@ -1,8 +1,8 @@
-"""What Ctrl-C, a kill or a closed terminal do to a command: one sentence, a status, no debris.
+"""How a command ends at Ctrl-C, a kill or a closed terminal: one sentence, a status, no leftovers.
 
-While a command works, a signal raises: every temporary file goes on the way out. Before and after
-there is nothing to clear up, and exceptions would meet half-imported modules: the process leaves
-at once.
+While a command works, a signal raises an exception, so that every temporary file is removed. Before
+and after there is nothing to remove, and exceptions would meet half-imported modules: the process
+ends at once.
 """
 
 from __future__ import annotations
@@ -23,12 +23,12 @@ from bellows_design.cli.early_signals import SIGNALS
 Handler = Callable[[int, FrameType | None], None]
 
 SAME_INTERRUPTION = 1.0
-"""s. A second signal within that belongs to the first and does not disturb the clearing up."""
+"""s. A second signal within that belongs to the first; it does not interrupt removing files."""
 
 AGAIN = 0.05
 """s. A signal that comes at a bad moment is looked at again after that."""
 
-UNDISTURBED = ("<frozen importlib", weakref.__file__)
+UNINTERRUPTED = ("<frozen importlib", weakref.__file__)
 """Begin the names of files whose functions, and what they call, no signal interrupts."""
 
 
@@ -48,7 +48,7 @@ class Signals:
     _latest: float = -SAME_INTERRUPTION
 
     def receive(self, number: int, frame: FrameType | None) -> None:
-        """Raise ``Interrupted``: once for one interruption, where it does no harm and is heard."""
+        """Raise ``Interrupted``: once for one interruption, where it does no harm."""
         if _must_end_first(frame):
             _repeat_soon(number)
             return
@@ -59,7 +59,7 @@ class Signals:
             raise Interrupted(number)
 
     def forget(self) -> None:
-        """The latest interruption was not heard: the next one counts, however soon it comes."""
+        """The latest interruption was dropped: the next one counts, however soon it comes."""
         self._latest = -SAME_INTERRUPTION
 
 
@@ -67,7 +67,7 @@ class Signals:
 def raising_signals() -> Iterator[Signals]:
     """Within the block the signals raise ``Interrupted``; afterwards they do what they did."""
     signals = Signals()
-    with _handled_by(signals.receive), _heard_everywhere(signals):
+    with _handled_by(signals.receive), _repeated_where_dropped(signals):
         yield signals
 
 
@@ -84,7 +84,7 @@ def _must_end_first(frame: FrameType | None) -> bool:
     An exception crashes some modules written in C while they are imported; out of a finalizer it
     does not come, and what was to be released stays.
     """
-    while frame is not None and not frame.f_code.co_filename.startswith(UNDISTURBED):
+    while frame is not None and not frame.f_code.co_filename.startswith(UNINTERRUPTED):
         frame = frame.f_back
     return frame is not None
 
@@ -97,7 +97,7 @@ def _repeat_soon(number: int) -> None:
 
 
 @contextmanager
-def _heard_everywhere(signals: Signals) -> Iterator[None]:
+def _repeated_where_dropped(signals: Signals) -> Iterator[None]:
     """Where Python drops exceptions (callbacks from C, ``__del__``), the signal comes again."""
     usual = sys.unraisablehook
 
@@ -117,7 +117,7 @@ def _heard_everywhere(signals: Signals) -> Iterator[None]:
 
 @contextmanager
 def _handled_by(handler: Handler) -> Iterator[None]:
-    before = {number: signal.getsignal(number) for number in _ours()}
+    before = {number: signal.getsignal(number) for number in _handled_signals()}
     try:
         for number in before:
             signal.signal(number, handler)
@@ -127,7 +127,7 @@ def _handled_by(handler: Handler) -> Iterator[None]:
             signal.signal(number, usual)
 
 
-def _ours() -> tuple[int, ...]:
+def _handled_signals() -> tuple[int, ...]:
     """Signals to handle: none outside the main thread, and none that is to be ignored (nohup)."""
     if threading.current_thread() is not threading.main_thread():
         return ()

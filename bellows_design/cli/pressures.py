@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 
-from bellows_design.errors import DesignError, quoted
+from bellows_design.errors import DesignError
+from bellows_design.validation.quoting import quoted
 
 MOST = 200
 """So many points describe any curve; more are a mistaken unit."""

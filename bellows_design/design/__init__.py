@@ -7,9 +7,13 @@ from typing import TYPE_CHECKING
 from bellows_design.lazy_names import imported_when_asked_for
 
 if TYPE_CHECKING:
-    from bellows_design.design.bellows_parameters import BellowsParameters, Indent, Port
-    from bellows_design.design.design import Design, Limits, Load, load_design, shipped_designs
+    from bellows_design.design.bellows_parameters import BellowsParameters
+    from bellows_design.design.conditions import Limits, Load
+    from bellows_design.design.design import Design
+    from bellows_design.design.indent import Indent
     from bellows_design.design.overrides import with_overrides
+    from bellows_design.design.port import Port
+    from bellows_design.design.shipped import load_design, shipped_designs
 
 __all__ = [
     "BellowsParameters",
@@ -26,8 +30,12 @@ __all__ = [
 __getattr__ = imported_when_asked_for(
     __name__,
     {
-        "bellows_parameters": ("BellowsParameters", "Indent", "Port"),
-        "design": ("Design", "Limits", "Load", "load_design", "shipped_designs"),
+        "bellows_parameters": ("BellowsParameters",),
+        "conditions": ("Limits", "Load"),
+        "design": ("Design",),
+        "indent": ("Indent",),
         "overrides": ("with_overrides",),
+        "port": ("Port",),
+        "shipped": ("load_design", "shipped_designs"),
     },
 )

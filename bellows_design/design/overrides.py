@@ -13,8 +13,11 @@ from typing import Any
 from pydantic import BaseModel
 
 from bellows_design.design.bellows_parameters import BellowsParameters
-from bellows_design.design.design import Design, parse_toml, quoted_reason
-from bellows_design.errors import DesignError, did_you_mean, nested_model, quoted
+from bellows_design.design.design import Design
+from bellows_design.errors import DesignError
+from bellows_design.files.toml_files import parse_toml
+from bellows_design.validation.quoting import did_you_mean, quoted, quoted_reason
+from bellows_design.validation.sentences import nested_model
 
 _WORD = re.compile(r"[A-Za-z_][A-Za-z0-9_-]*")
 _TOML_WORDS = ("true", "false", "inf", "nan")
@@ -23,7 +26,13 @@ _TOML_WORDS = ("true", "false", "inf", "nan")
 def with_overrides(design: Design, assignments: Iterable[str]) -> Design:
     """``design`` with every ``key=value`` applied in turn.
 
-    Raises ``DesignError`` for an unknown key, an unreadable value, or a result that is no design.
+    Args:
+        design: The design to start from; it stays as it is.
+        assignments: Such as ``bubble_thickness=1.2`` (mm), ``indent.depth=0.4`` (mm),
+            ``load.pressure=0.05`` (MPa), ``indent=none``.
+
+    Raises:
+        DesignError: An unknown key, an unreadable value, or a result that is no design.
     """
     table = design.model_dump()
     for assignment in assignments:
@@ -87,11 +96,11 @@ def _value(key: str, text: str) -> Any:
         return text
     try:
         table = parse_toml(f"value = {text}")
-    except (ValueError, RecursionError) as error:
+    except ValueError as error:
         raise DesignError(
             f"{key} cannot be set to {quoted(text)}: {quoted_reason(error)}."
         ) from None
-    if list(table) != ["value"]:  # a line break would smuggle in more keys
+    if list(table) != ["value"]:  # a line break would bring in more keys
         raise DesignError(f"{key} cannot be set to {quoted(text)}: it is not one value.")
     return table["value"]
 

@@ -1,36 +1,34 @@
-"""Approved models leave through here, and only approved ones.
+"""The folder of an approved design.
 
 ``exports/NAME/`` holds ``NAME.stl``, ``NAME.3mf``, ``NAME.step`` and ``manifest.json``. The folder
 is written under a hidden name beside its place and renamed when it is complete: a reader finds all
 of it or nothing. The manifest states the design, the verdict's grounds and the hash of every file.
 
-One name stands for one current verdict. An export replaces the earlier one of its name; a refusal
-withdraws it, for whoever looks into the folder must not take yesterday's approval for today's.
-Nothing is lost by that: the design in a manifest rebuilds its files. Only files that a manifest of
-ours lists are ever removed, never a file or folder that someone else put there.
+A name has one current verdict. An export replaces the earlier one of its name, and a refusal
+withdraws it, so that an outdated approval is never taken for the current one. Nothing is lost: the
+design in a manifest rebuilds its files. Only files that a manifest of ours lists are ever removed,
+never a file or folder that someone else put there.
 """
 
 from __future__ import annotations
 
 import hashlib
 import json
-import math
 import os
 import shutil
 from collections.abc import Mapping
 from contextlib import suppress
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from bellows_design.approval import Verdict
-from bellows_design.errors import DesignError, quoted
+from bellows_design.errors import BellowsError, DesignError
 from bellows_design.export.formats import WRITERS, Part
-from bellows_design.files.atomic import (
-    open_to_readers,
-    remove_leftovers,
-    replacing,
-    temporary_beside,
-)
+from bellows_design.files.atomic import open_to_readers, remove_leftovers, temporary_beside
+from bellows_design.files.json_files import write_json
+from bellows_design.validation.quoting import quoted
+
+if TYPE_CHECKING:
+    from bellows_design.approval import Verdict
 
 MANIFEST = "manifest.json"
 MANIFEST_FORMAT = "bellows-design manifest 1"
@@ -41,12 +39,15 @@ def export_approved(
 ) -> Path:
     """Write the approved ``part`` into ``output_root/NAME`` and return that folder.
 
-    ``grounds`` goes into the manifest (design, check, evaluation, versions). Raises ``ValueError``
-    if the verdict is no approval, ``DesignError`` if the folder holds files that are not ours, and
-    ``OSError`` if it cannot be written; then nothing has changed.
+    ``grounds`` goes into the manifest (design, check, evaluation, versions).
+
+    Raises:
+        BellowsError: The verdict is no approval.
+        DesignError: The folder holds files that are not ours.
+        OSError: It cannot be written; then nothing has changed.
     """
     if not verdict.approved:
-        raise ValueError(f"{part.name} is not approved and cannot be exported")
+        raise BellowsError(f"{part.name} is not approved and cannot be exported")
     require_place(part.name, output_root)
     target = output_root / part.name
     output_root.mkdir(parents=True, exist_ok=True)
@@ -64,7 +65,7 @@ def export_approved(
 def require_place(name: str, output_root: Path) -> None:
     """Raise ``DesignError`` if ``output_root/name`` may not be written or replaced.
 
-    Worth asking before the long computation that an export follows.
+    Asked before the long computation that an export follows.
     """
     _require_plain(name)
     if output_root.exists() and not output_root.is_dir():
@@ -90,30 +91,6 @@ def withdraw(name: str, output_root: Path) -> Path | None:
     with suppress(OSError):  # other people's files keep the folder
         folder.rmdir()
     return folder
-
-
-def write_json(content: Mapping[str, Any], path: Path) -> None:
-    """Write ``content`` as JSON, completely or not at all."""
-    with replacing(path) as temporary:
-        temporary.write_text(json_text(content), "utf-8")
-
-
-def json_text(content: Mapping[str, Any]) -> str:
-    """``content`` as JSON; numbers that are not finite, which JSON lacks, become null."""
-    return json.dumps(_finite(content), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
-
-
-def _finite(value: Any) -> Any:
-    if isinstance(value, Mapping):
-        return {str(key): _finite(inner) for key, inner in value.items()}
-    if isinstance(value, list | tuple):
-        return [_finite(inner) for inner in value]
-    if isinstance(value, str | int | None):
-        return value
-    if isinstance(value, Path):
-        return str(value)
-    number = float(value)  # also NumPy's
-    return number if math.isfinite(number) else None
 
 
 def _fill(folder: Path, part: Part, verdict: Verdict, grounds: Mapping[str, Any]) -> None:
@@ -180,7 +157,7 @@ def _listed_files(folder: Path) -> tuple[str, ...] | None:
 
 
 def _is_plain(name: str) -> bool:
-    """True if ``name`` leads to a place right in a folder: no way out, no way further in."""
+    """True if ``name`` names an entry of a folder itself, neither above it nor further down."""
     return name == Path(name).name and name not in ("", "..", ".") and "\0" not in name
 
 

@@ -1,4 +1,4 @@
-"""The formats a part leaves in: one writer for each suffix.
+"""File formats of a part: one writer for each suffix.
 
 Lengths are millimetres in all of them. STL and 3MF hold the checked triangle mesh itself, STEP
 the exact solid. A new format is one more function and one more line in ``WRITERS``.
@@ -12,9 +12,10 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
-from bellows_design.errors import DesignError, quoted
+from bellows_design.errors import DesignError
 from bellows_design.files.atomic import replacing
 from bellows_design.geometry.tessellation import ClosedMesh
+from bellows_design.validation.quoting import quoted
 
 if TYPE_CHECKING:
     import cadquery as cq

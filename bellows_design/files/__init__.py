@@ -1,1 +1,1 @@
-"""Files that are written completely or not at all."""
+"""Files: JSON and TOML, written completely or not at all, and read with guards."""

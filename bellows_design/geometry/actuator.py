@@ -12,13 +12,10 @@ import math
 
 import cadquery as cq
 
-from bellows_design.design.bellows_parameters import (
-    SMALLEST_FEATURE,
-    BellowsParameters,
-    Indent,
-    Port,
-    snapped_radius,
-)
+from bellows_design.design.bellows_parameters import BellowsParameters
+from bellows_design.design.indent import Indent
+from bellows_design.design.lengths import SMALLEST_FEATURE, snapped_radius
+from bellows_design.design.port import Port
 from bellows_design.geometry.named_solids import (
     NamedSolid,
     box,
@@ -48,7 +45,7 @@ def printed_part(bellows: BellowsParameters, indent: Indent | None, port: Port) 
     Faces: ``cavity``, ``outside``, ``root``, ``tip``, ``port`` (the socket and its mouth).
 
     Raises:
-        ValueError: indent or port do not fit the bellows.
+        DesignError: indent or port do not fit the bellows.
         GeometryError: the CAD kernel failed.
     """
     port.check_fits(bellows)

@@ -13,8 +13,10 @@ from typing import Any
 
 import cadquery as cq
 from cadquery import func
-from OCP.BRepAlgoAPI import BRepAlgoAPI_Common, BRepAlgoAPI_Cut, BRepAlgoAPI_Fuse
+from OCP.BRepAlgoAPI import BRepAlgoAPI_Cut, BRepAlgoAPI_Fuse
 from OCP.TopTools import TopTools_ListOfShape
+
+from bellows_design.errors import BellowsError
 
 Point = tuple[float, float, float]
 
@@ -22,7 +24,7 @@ SEWING_TOLERANCE = 1e-6
 """mm. Faces of one rounded box share edges exactly but for rounding."""
 
 
-class GeometryError(ValueError):
+class GeometryError(BellowsError):
     """The CAD kernel could not build a valid solid from admissible numbers."""
 
 
@@ -61,11 +63,6 @@ def fused(*parts: NamedSolid) -> NamedSolid:
 def cut(body: NamedSolid, *tools: NamedSolid) -> NamedSolid:
     """``body`` without ``tools``; the new faces keep the tools' names."""
     return _boolean(BRepAlgoAPI_Cut(), (body,), tools) if tools else body
-
-
-def common(body: NamedSolid, tool: NamedSolid) -> NamedSolid:
-    """What ``body`` and ``tool`` share."""
-    return _boolean(BRepAlgoAPI_Common(), (body,), (tool,))
 
 
 def _boolean(
@@ -126,7 +123,7 @@ def rounded_box(lower: Point, upper: Point, radius: float) -> cq.Solid:
         return box(lower, upper)
     half = [(high - low) / 2 for low, high in zip(lower, upper, strict=True)]
     if radius > min(half) + 1e-9:
-        raise ValueError(f"radius = {radius:g} mm exceeds half of the box, {min(half):g} mm")
+        raise GeometryError(f"radius = {radius:g} mm exceeds half of the box, {min(half):g} mm")
     core = [extent - radius if extent - radius > 1e-9 else 0.0 for extent in half]
     centre = cq.Vector(*[(low + high) / 2 for low, high in zip(lower, upper, strict=True)])
     faces = [*_planes(core, radius), *_cylinders(core, radius), *_octants(core, radius)]

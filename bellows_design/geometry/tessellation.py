@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from bellows_design.errors import BellowsError
+
 if TYPE_CHECKING:
     import cadquery as cq
 
@@ -22,7 +24,7 @@ are tried then.
 """
 
 
-class TessellationError(ValueError):
+class TessellationError(BellowsError):
     """The solid's triangles do not close, or turn inside out."""
 
 

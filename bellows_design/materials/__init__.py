@@ -7,13 +7,27 @@ from typing import TYPE_CHECKING
 from bellows_design.lazy_names import imported_when_asked_for
 
 if TYPE_CHECKING:
-    from bellows_design.materials.library import Material, load_material, material_names
+    from bellows_design.materials.fitting.measurements import Measurements, load_measurements
+    from bellows_design.materials.fitting.selection import fit
+    from bellows_design.materials.library import load_material, material_names, write_material
+    from bellows_design.materials.material import Material
 
-__all__ = ["Material", "load_material", "material_names"]
+__all__ = [
+    "Material",
+    "Measurements",
+    "fit",
+    "load_material",
+    "load_measurements",
+    "material_names",
+    "write_material",
+]
 
 __getattr__ = imported_when_asked_for(
     __name__,
     {
-        "library": ("Material", "load_material", "material_names"),
+        "fitting.measurements": ("Measurements", "load_measurements"),
+        "fitting.selection": ("fit",),
+        "library": ("load_material", "material_names", "write_material"),
+        "material": ("Material",),
     },
 )

@@ -1,60 +1,42 @@
-"""Pictures of results, with matplotlib from the extra ``pictures``."""
+"""A benchmark as a picture: error over seconds."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from bellows_design.errors import DesignError
-from bellows_design.files.atomic import replacing
+from bellows_design.reports.plots import COLOURS, two_axes
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7")
-"""Told apart by colour-blind people too (Okabe and Ito)."""
+    from bellows_design.benchmark.study import Study
 
 
-def require_matplotlib() -> None:
-    """Raise ``DesignError`` if it is not installed. Imports nothing."""
-    if find_spec("matplotlib") is None:
-        raise DesignError(
-            "a plot needs matplotlib, which comes with the extra “pictures”: "
-            "pip install -e '.[pictures]'."
-        )
-
-
-def plot_benchmark(benchmark: Mapping[str, Any], path: Path) -> None:
+def plot_benchmark(study: Study, path: Path) -> None:
     """Error over seconds, for angle and stress, as PNG; written completely or not at all.
 
-    ``benchmark`` is what ``Study.to_dict`` gives. Raises ``DesignError`` without matplotlib.
+    Raises ``DesignError`` without matplotlib.
     """
-    require_matplotlib()
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(11, 4.8), layout="constrained")
-    figure.suptitle(f"{benchmark['design']} under {benchmark['pressure_mpa']:g} MPa")
-    left, right = figure.subplots(1, 2)
-    _draw(left, benchmark["models"], "bending_angle", "error of the bending angle, %")
-    _draw(right, benchmark["models"], "max_von_mises", "error of the highest von Mises stress, %")
-    with replacing(path) as temporary:
-        figure.savefig(temporary, dpi=130, format="png")
+    title = f"{study.design.name} under {study.design.load.pressure:g} MPa"
+    with two_axes(title, path) as (left, right):
+        _draw(left, study, "bending_angle_percent", "error of the bending angle, %")
+        _draw(right, study, "max_von_mises_percent", "error of the highest von Mises stress, %")
 
 
-def _draw(axes: Axes, models: Sequence[Mapping[str, Any]], key: str, label: str) -> None:
+def _draw(axes: Axes, study: Study, error: str, label: str) -> None:
     """One line for each model, with the number of elements at each point."""
     axes.set(xscale="log", yscale="log", xlabel="seconds so far, warm process", ylabel=label)
     axes.grid(True, which="both", linewidth=0.4, alpha=0.4)
-    for number, model in enumerate(models):
-        known = [mesh for mesh in model["meshes"] if mesh["error"][f"{key}_percent"]]
-        seconds = [mesh["seconds_so_far"]["total"] for mesh in known]
-        errors = [mesh["error"][f"{key}_percent"] for mesh in known]
+    for number, series in enumerate(study.series):
+        values = [getattr(errors, error) for errors in series.errors]
+        known = [pair for pair in zip(series.levels, values, strict=True) if pair[1]]
+        points = [(level.so_far.total, value) for level, value in known]
         colour = COLOURS[number % len(COLOURS)]
-        axes.plot(seconds, errors, "o-", color=colour, label=model["model"])
-        for mesh, x, y in zip(known, seconds, errors, strict=True):
-            _label(axes, str(mesh["elements"]), (x, y), colour)
+        x, y = [point[0] for point in points], [point[1] for point in points]
+        axes.plot(x, y, "o-", color=colour, label=series.model)
+        for (level, _), point in zip(known, points, strict=True):
+            _label(axes, str(level.work.elements), point, colour)
     axes.margins(0.15)
     _plain_numbers(axes)
     axes.legend(title="model, with tetrahedra")

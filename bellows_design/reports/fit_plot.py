@@ -1,4 +1,4 @@
-"""A fit drawn over its measurements, with matplotlib from the extra ``pictures``."""
+"""A fit drawn over its measurements."""
 
 from __future__ import annotations
 
@@ -7,10 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bellows_design.files.atomic import replacing
 from bellows_design.materials.fitting.fit_result import Fit
 from bellows_design.materials.fitting.measurements import Measurements
-from bellows_design.reports.benchmark_plot import COLOURS, require_matplotlib
+from bellows_design.reports.plots import COLOURS, two_axes
 from solver.material.homogeneous import MODES, nominal_stress
 
 if TYPE_CHECKING:
@@ -22,16 +21,10 @@ def plot_fit(data: Measurements, fit: Fit, path: Path) -> None:
 
     Raises ``DesignError`` without matplotlib.
     """
-    require_matplotlib()
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(11, 4.8), layout="constrained")
-    figure.suptitle(f"{data.name}: {fit.model}, R² = {fit.r_squared:.5f}")
-    left, right = figure.subplots(1, 2)
-    _draw_stress(left, data, fit)
-    _draw_errors(right, data, fit)
-    with replacing(path) as temporary:
-        figure.savefig(temporary, dpi=130, format="png")
+    title = f"{data.name}: {fit.model}, R² = {fit.r_squared:.5f}"
+    with two_axes(title, path) as (left, right):
+        _draw_stress(left, data, fit)
+        _draw_errors(right, data, fit)
 
 
 def _draw_stress(axes: Axes, data: Measurements, fit: Fit) -> None:

@@ -34,8 +34,8 @@ class Result:
 
     def build(self) -> Design:
         """The design itself."""
-        from bellows_design.design.design import load_design
         from bellows_design.design.overrides import with_overrides
+        from bellows_design.design.shipped import load_design
 
         return with_overrides(load_design(self.design), self.overrides)
 

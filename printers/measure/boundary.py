@@ -6,11 +6,12 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from printers.arrays import Flags, Floats
 from printers.measure.plugging import near_axis
+from printers.measure.samples import Samples, sample
 from printers.measure.shells import Shells
-from printers.measure.surface import Samples, Surface, sample
+from printers.measure.surface import Surface
 from printers.model import Opening
 
 SAMPLES_PER_SQUARE_MILLIMETRE = 4.0
@@ -31,14 +32,16 @@ class Boundary:
 
     @property
     def surface(self) -> Surface:
+        """All of it, the plugs included."""
         return self.shells.surface
 
     @property
     def has_cavity(self) -> bool:
+        """Whether the plugged part encloses any air."""
         return bool(self.shells.voids)
 
     @cached_property
-    def of_cavity(self) -> NDArray[np.bool_]:
+    def of_cavity(self) -> Flags:
         """(m,): triangles of the cavity's wall."""
         return np.isin(self.surface.shell_of_triangle, list(self.shells.voids))
 
@@ -58,7 +61,7 @@ class Boundary:
         """The samples on the outside."""
         return self.samples.chosen(~self.of_cavity[self.samples.triangle])
 
-    def at_openings(self, points: NDArray[np.float64]) -> NDArray[np.bool_]:
+    def at_openings(self, points: Floats) -> Flags:
         """(k,): which points (k, 3) lie on a plug or in a bore right behind its mouth."""
         result = np.zeros(len(points), dtype=bool)
         for opening in self.openings:

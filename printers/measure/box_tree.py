@@ -1,7 +1,8 @@
 """A bounding-box tree over triangles.
 
 It answers one question, *which segments cross which triangles*, in double precision, so that
-thickness, gaps and self-intersection all rest on the same arithmetic.
+thickness, gaps and self-intersection all rest on the same arithmetic. All compiled code of the
+package is in this file: numba's cache does not see changes in another one.
 """
 
 from __future__ import annotations
@@ -10,10 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
+from printers.arrays import Flags, Floats, Ints
 
 LEAF_SIZE = 4
 BARYCENTRIC_SLACK = 1e-9
@@ -52,6 +51,12 @@ class Crossings:
     triangle: Ints
     fraction: Floats
     inside: Floats
+
+    def chosen(self, which: Flags | Ints) -> Crossings:
+        """The crossings picked by flags or by number."""
+        return Crossings(
+            self.segment[which], self.triangle[which], self.fraction[which], self.inside[which]
+        )
 
 
 def build_tree(corners: Floats) -> BoxTree:
@@ -110,21 +115,23 @@ def crossings(tree: BoxTree, start: Floats, end: Floats) -> Crossings:
         capacity = count
 
 
-def first_hits(tree: BoxTree, start: Floats, end: Floats, own: Ints) -> tuple[Floats, Ints]:
+def first_hits(
+    tree: BoxTree, start: Floats, end: Floats, own: Ints | None = None
+) -> tuple[Floats, Ints]:
     """Distance (k,) in mm to the first triangle crossed and its number; inf and -1 without one.
 
-    `own` (k,) is the triangle each segment starts on and must not count; -1 for none.
+    `own` (k,), if given, is the triangle each segment starts on, which must not count.
     """
+    found = crossings(tree, start, end)
+    if own is not None:
+        found = found.chosen(found.triangle != own[found.segment])
     distance = np.full(len(start), np.inf)
     triangle = np.full(len(start), -1, dtype=np.int64)
-    found = crossings(tree, start, end)
-    other = found.triangle != own[found.segment]
-    nearest_last = np.argsort(-found.fraction[other], kind="stable")
-    segment = found.segment[other][nearest_last]
+    nearest_last = found.chosen(np.argsort(-found.fraction, kind="stable"))
     length = np.linalg.norm(end - start, axis=1)
     # Later assignments win, so the nearest crossing of each segment is what remains.
-    distance[segment] = found.fraction[other][nearest_last] * length[segment]
-    triangle[segment] = found.triangle[other][nearest_last]
+    distance[nearest_last.segment] = nearest_last.fraction * length[nearest_last.segment]
+    triangle[nearest_last.segment] = nearest_last.triangle
     return distance, triangle
 
 

@@ -1,4 +1,4 @@
-"""Where does a cavity leak?
+"""Locating the leaks of a cavity.
 
 With the declared openings plugged, the shortest closed curve on the surface that parts the cavity
 from the outside is the rim of the leak: a minimum cut in the graph of neighbouring triangles whose
@@ -13,13 +13,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from printers.measure.box_tree import Ints
+from printers.arrays import Flags, Floats, Ints
 from printers.measure.plugging import near_axis
 from printers.measure.surface import Surface, label
 from printers.model import Opening
 
+SOURCE, DRAIN = 0, 1  # nodes of the graph: what is certainly inside, and outside
 UNITS_PER_MILLIMETRE = 1000  # the maximum flow counts in whole micrometres
-GROWTH_STEPS = (0.0, 2.0, 4.0, 8.0, 16.0)  # radii of the opening taken as surely inside
+GROWTH_STEPS = (0.0, 2.0, 4.0, 8.0, 16.0)  # radii of the opening taken as certainly inside
 
 
 @dataclass(frozen=True)
@@ -42,14 +43,12 @@ def find_leaks(surface: Surface, openings: Sequence[Opening]) -> tuple[Leak, ...
         reach = step * max(opening.radius for opening in openings)
         inside = inner_ends | (_connected(surface, inner_ends, distance <= reach) & ~outside)
         rim = _minimum_cut(surface, inside, outside)
-        if not _hugs(surface, rim, inside):
+        if not _follows_start_border(surface, rim, inside):
             return _leaks(surface, rim)
     return ()
 
 
-def _inner_ends(
-    surface: Surface, centres: NDArray[np.float64], openings: Sequence[Opening]
-) -> NDArray[np.bool_]:
+def _inner_ends(surface: Surface, centres: Floats, openings: Sequence[Opening]) -> Flags:
     """Triangles on the faces of the plugs that look into the cavity."""
     chosen = np.zeros(len(centres), dtype=bool)
     for opening in openings:
@@ -59,15 +58,13 @@ def _inner_ends(
     return chosen
 
 
-def _on_bounding_box(surface: Surface) -> NDArray[np.bool_]:
+def _on_bounding_box(surface: Surface) -> Flags:
     near = np.abs(surface.vertices[:, None] - surface.bounds) < 1e-6
     touching = np.asarray(near.any(axis=(1, 2)))
     return np.asarray(np.all(touching[surface.triangles], axis=1))
 
 
-def _connected(
-    surface: Surface, start: NDArray[np.bool_], allowed: NDArray[np.bool_]
-) -> NDArray[np.bool_]:
+def _connected(surface: Surface, start: Flags, allowed: Flags) -> Flags:
     first, second, _ = surface.neighbours
     free = start | allowed
     kept = free[first] & free[second]
@@ -75,36 +72,41 @@ def _connected(
     return free & np.isin(piece, piece[start])
 
 
-def _minimum_cut(surface: Surface, inside: NDArray[np.bool_], outside: NDArray[np.bool_]) -> Ints:
+def _minimum_cut(surface: Surface, inside: Flags, outside: Flags) -> Ints:
     """Half-edges of the shortest curve between the two sets of triangles."""
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import breadth_first_order, maximum_flow
-
     first, second, half_edge = surface.neighbours
-    node = np.arange(len(inside)) + 2  # 0 is the source inside, 1 the drain outside
-    node[inside], node[outside] = 0, 1
+    node = np.arange(len(inside)) + 2
+    node[inside], node[outside] = SOURCE, DRAIN
     length = _edge_lengths(surface, half_edge)
     capacity = np.ceil(length * UNITS_PER_MILLIMETRE).astype(np.int32)
     a, b = node[first], node[second]
     crossing = a != b
-    ends = np.concatenate([a[crossing], b[crossing]]), np.concatenate([b[crossing], a[crossing]])
-    size = (len(inside) + 2,) * 2
-    graph = coo_array((np.tile(capacity[crossing], 2), ends), shape=size).tocsr()
-    residual = graph - maximum_flow(graph, 0, 1).flow
-    residual.data[residual.data < 0] = 0
-    residual.eliminate_zeros()
-    reached = np.zeros(size[0], dtype=bool)
-    reached[breadth_first_order(residual, 0, return_predecessors=False)] = True
+    reached = _source_side(len(node) + 2, a[crossing], b[crossing], capacity[crossing])
     return half_edge[reached[a] != reached[b]]
 
 
-def _edge_lengths(surface: Surface, half_edge: Ints) -> NDArray[np.float64]:
+def _source_side(count: int, a: Ints, b: Ints, capacity: NDArray[np.int32]) -> Flags:
+    """(count,): nodes on the source's side of the minimum cut of a graph with the edges a-b."""
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import breadth_first_order, maximum_flow
+
+    ends = np.concatenate([a, b]), np.concatenate([b, a])
+    graph = coo_array((np.tile(capacity, 2), ends), shape=(count, count)).tocsr()
+    residual = graph - maximum_flow(graph, SOURCE, DRAIN).flow
+    residual.data[residual.data < 0] = 0
+    residual.eliminate_zeros()
+    reached = np.zeros(count, dtype=bool)
+    reached[breadth_first_order(residual, SOURCE, return_predecessors=False)] = True
+    return reached
+
+
+def _edge_lengths(surface: Surface, half_edge: Ints) -> Floats:
     ends = surface.vertices[surface.half_edges[half_edge]]
     return np.asarray(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1))
 
 
-def _hugs(surface: Surface, rim: Ints, inside: NDArray[np.bool_]) -> bool:
-    """Whether most of the curve merely runs around the set it started from."""
+def _follows_start_border(surface: Surface, rim: Ints, inside: Flags) -> bool:
+    """Whether most of the curve runs along the border of the set it started from."""
     first, second, half_edge = surface.neighbours
     border = half_edge[inside[first] != inside[second]]
     lengths = _edge_lengths(surface, rim)

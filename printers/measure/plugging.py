@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from printers.arrays import Flags, Floats
+from printers.errors import PrintersError
+from printers.measure.shells import Shells, split_shells
 from printers.measure.surface import Surface, merged_surface
 from printers.model import Opening
 
@@ -18,24 +21,62 @@ PLUG_MARGIN = 0.1  # mm wider than the bore: more than a facet's chord error, le
 PLUG_SIDES = 64
 
 
+@dataclass(frozen=True)
+class Sealing:
+    """The part as it is (`part`) and with its declared openings plugged (`closed`)."""
+
+    part: Shells
+    closed: Shells
+    openings: tuple[Opening, ...]
+
+    @property
+    def openings_closed(self) -> int:
+        """Openings the plugs really closed; each one added two to the Euler characteristic."""
+        before = self.part.surface.euler_characteristic()
+        return (self.closed.surface.euler_characteristic() - before) // 2
+
+
+def seal(part: Shells, openings: Sequence[Opening]) -> Sealing:
+    """Plug the openings of a part. Raises PrintersError if its surface bounds no solid."""
+    if not (part.surface.is_closed and part.surface.volume() > 0):
+        raise PrintersError("the mesh is not closed with its normals pointing outwards")
+    return Sealing(part, split_shells(plugged(part.surface, openings)), tuple(openings))
+
+
 def plugged(surface: Surface, openings: Sequence[Opening]) -> Surface:
     """The surface of the part with a plug in every opening.
 
     A plug is a cylinder around the mouth's axis, reaching one radius into and out of the part.
-    Raises ValueError if the surface is not closed and evenly oriented.
+    Raises PrintersError if the surface bounds no solid.
     """
-    from manifold3d import Manifold, Mesh64
-
-    solid = Manifold(Mesh64(surface.vertices, surface.triangles.astype(np.uint64)))
-    if solid.status().name != "NoError":
-        raise ValueError(f"the mesh bounds no solid ({solid.status().name}); it cannot be plugged")
+    solid = solid_of(surface)
     for opening in openings:
         solid = solid + _plug(opening)
     mesh = solid.to_mesh64()
     return merged_surface(mesh.vert_properties[:, :3], mesh.tri_verts.astype(np.int64))
 
 
-def near_axis(points: NDArray[np.float64], opening: Opening, depth: float) -> NDArray[np.bool_]:
+def solid_of(surface: Surface) -> Manifold:
+    """The solid within a closed surface. Raises PrintersError if there is none."""
+    from manifold3d import Manifold, Mesh64
+
+    solid = Manifold(Mesh64(surface.vertices, surface.triangles.astype(np.uint64)))
+    status = solid.status().name
+    if status != "NoError":
+        raise PrintersError(f"the mesh bounds no solid ({status}); it cannot be plugged")
+    return solid
+
+
+def frame_of(opening: Opening) -> Floats:
+    """(3, 3): a right-handed frame of unit columns, the last of which points out of the opening."""
+    axis = np.asarray(opening.direction) / np.linalg.norm(opening.direction)
+    helper = np.eye(3)[np.abs(axis).argmin()]
+    first = np.cross(helper, axis)
+    first /= np.linalg.norm(first)
+    return np.column_stack([first, np.cross(axis, first), axis])
+
+
+def near_axis(points: Floats, opening: Opening, depth: float) -> Flags:
     """(k,): which points (k, 3) lie in the plug or up to `depth` mm behind the mouth."""
     axis = np.asarray(opening.direction) / np.linalg.norm(opening.direction)
     offset = points - np.asarray(opening.centre)
@@ -54,14 +95,4 @@ def _plug(opening: Opening) -> Manifold:
     cylinder = Manifold.cylinder(
         2 * opening.radius, opening.radius + PLUG_MARGIN, -1.0, PLUG_SIDES, True
     )
-    frame = np.column_stack([_frame(np.asarray(opening.direction)), opening.centre])
-    return cylinder.transform(frame)
-
-
-def _frame(direction: NDArray[np.float64]) -> NDArray[np.float64]:
-    """(3, 3): a right-handed frame whose third column is the direction."""
-    axis = direction / np.linalg.norm(direction)
-    helper = np.eye(3)[np.abs(axis).argmin()]
-    first = np.cross(helper, axis)
-    first /= np.linalg.norm(first)
-    return np.column_stack([first, np.cross(axis, first), axis])
+    return cylinder.transform(np.column_stack([frame_of(opening), opening.centre]))

@@ -28,10 +28,6 @@ class Shells:
         """Volume of the material in mm³."""
         return sum(self.bodies.values()) - sum(self.voids.values())
 
-    def boundary_of(self, numbers: Mapping[int, float]) -> Surface:
-        """The part of the surface that belongs to the shells with these numbers."""
-        return self.surface.part(np.isin(self.surface.shell_of_triangle, list(numbers)))
-
 
 def split_shells(surface: Surface) -> Shells:
     """Sort the shells by the sign of the volume they enclose."""

@@ -11,13 +11,12 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from printers.arrays import Flags, Floats
 from printers.measure.box_tree import first_hits
-from printers.measure.surface import Samples, Surface
+from printers.measure.samples import Samples
+from printers.measure.surface import Surface
 
-Floats = NDArray[np.float64]
-Flags = NDArray[np.bool_]
 Filling = Literal["material", "air"]
 
 OFF_THE_SURFACE = 1e-6  # mm
@@ -119,8 +118,7 @@ def steady(slabs: Slabs) -> Flags:
 def _probe(surface: Surface, slabs: Slabs, sideways: Floats, direction: Floats) -> Floats:
     start = slabs.middle + sideways
     reach = slabs.thickness[:, None] / 2 + 0.5
-    nobody = np.full(len(start), -1, dtype=np.int64)
-    return first_hits(surface.tree, start, start + reach * direction, nobody)[0]
+    return first_hits(surface.tree, start, start + reach * direction)[0]
 
 
 def _tangents(normal: Floats) -> tuple[Floats, Floats]:

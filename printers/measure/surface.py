@@ -1,4 +1,4 @@
-"""The boundary of a printed part as one indexed triangle surface, and points spread over it."""
+"""The boundary of a printed part as one indexed triangle surface."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
-from printers.measure.box_tree import BoxTree, Floats, Ints, build_tree
+from printers.arrays import Floats, Ints
+from printers.measure.box_tree import BoxTree, build_tree
 
 MERGE_DISTANCE = 1e-5  # mm: above the rounding of a binary STL at 100 mm, far below any feature
 
@@ -66,6 +66,24 @@ class Surface:
         return np.asarray(np.unique(keys, return_inverse=True)[1])
 
     @cached_property
+    def edge_uses(self) -> Ints:
+        """(e,): how many triangles share each undirected edge."""
+        return np.bincount(self.edge_number)
+
+    @cached_property
+    def edge_balance(self) -> Ints:
+        """(e,): how many more triangles run along each edge in one sense than in the other."""
+        forward = self.half_edges[:, 0] < self.half_edges[:, 1]
+        return np.abs(
+            2 * np.bincount(self.edge_number, weights=forward).astype(np.int64) - self.edge_uses
+        )
+
+    @property
+    def is_closed(self) -> bool:
+        """Whether every edge lies between two triangles that run along it in opposite senses."""
+        return bool((self.edge_uses == 2).all() and (self.edge_balance == 0).all())
+
+    @cached_property
     def neighbours(self) -> tuple[Ints, Ints, Ints]:
         """Pairs of triangles that share an edge, and the half-edge of the first: three (k,) arrays.
 
@@ -80,11 +98,6 @@ class Surface:
         """(m,): number of the connected piece of surface every triangle belongs to."""
         return label(len(self.triangles), *self.neighbours[:2])
 
-    def part(self, chosen: NDArray[np.bool_]) -> Surface:
-        """The surface made of the chosen triangles (m,) alone."""
-        used, triangles = np.unique(self.triangles[chosen], return_inverse=True)
-        return Surface(self.vertices[used], triangles.reshape(-1, 3))
-
     def volume(self) -> float:
         """Signed enclosed volume in mm³, by the divergence theorem; negative for a void."""
         return float(np.einsum("ij,ij->", self.corners.mean(axis=1), self.area_vectors) / 3)
@@ -93,23 +106,6 @@ class Surface:
         """Vertices - edges + triangles; 2 - 2 genus for a closed shell."""
         used = len(np.unique(self.triangles))
         return used - int(self.edge_number.max(initial=-1) + 1) + len(self.triangles)
-
-
-@dataclass(frozen=True)
-class Samples:
-    """Points spread evenly over a surface, each standing for the same area.
-
-    *Shape:* `points` (k, 3) mm, `normals` (k, 3) outward, `triangle` (k,); `area` in mm² of each.
-    """
-
-    points: Floats
-    normals: Floats
-    triangle: Ints
-    area: float
-
-    def chosen(self, which: NDArray[np.bool_]) -> Samples:
-        """The samples picked by (k,) flags."""
-        return Samples(self.points[which], self.normals[which], self.triangle[which], self.area)
 
 
 def label(count: int, first: Ints, second: Ints) -> Ints:
@@ -135,29 +131,3 @@ def merged_surface(vertices: Floats, triangles: Ints) -> Surface:
     joined = group[number.ravel()][triangles]
     kept = (joined != np.roll(joined, 1, axis=1)).all(axis=1)
     return Surface(distinct[representative], joined[kept])
-
-
-def sample(surface: Surface, per_square_millimetre: float, bounds: tuple[int, int]) -> Samples:
-    """Spread points over the surface by area, without randomness.
-
-    Positions step evenly through the accumulated area and inside the triangles along the
-    R2 sequence (M. Roberts, 2018), so that the density does not depend on the triangulation.
-    `bounds` are the least and the greatest number of points.
-    """
-    total = float(surface.areas.sum())
-    count = int(np.clip(total * per_square_millimetre, *bounds))
-    step = np.arange(count)
-    accumulated = np.cumsum(surface.areas)
-    triangle = np.searchsorted(accumulated, (step + 0.5) * total / count).clip(
-        max=len(surface.triangles) - 1
-    )
-    points = _points_in(surface.corners[triangle], step)
-    return Samples(points, surface.normals[triangle], triangle, total / count)
-
-
-def _points_in(corners: Floats, step: Ints) -> Floats:
-    plastic = 1.324717957244746
-    root = np.sqrt((0.5 + step / plastic) % 1)
-    across = (0.5 + step / plastic**2) % 1
-    weights = np.stack([1 - root, root * (1 - across), root * across], axis=1)
-    return np.asarray(np.einsum("ij,ijk->ik", weights, corners))

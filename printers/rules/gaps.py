@@ -2,38 +2,35 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 
 import numpy as np
 
 from printers.measure.boundary import Boundary
+from printers.measure.part import MeasuredPart
+from printers.measure.samples import Samples
 from printers.measure.slabs import Slabs, measure_slabs
-from printers.measure.surface import Samples
 from printers.model import DeclaredGap
 from printers.profile import PrinterProfile
-from printers.report import RuleResult, place
-from printers.rules.walls import FACET_TOLERANCE, SMALLEST_WALL
+from printers.report import RuleResult, pass_or_fail, place
+from printers.tolerances import FACET_TOLERANCE, SMALLEST_AREA
 
 FACING = float(np.cos(np.radians(30.0)))  # walls that open up more widely than this do not fuse
 WIDEST = 3.0  # mm: walls further apart are no neighbours, unless a wider gap is declared
 
 
-def check_declared_gaps(
-    gaps: Iterable[DeclaredGap], profile: PrinterProfile
-) -> Iterator[RuleResult]:
+def check_declared_gaps(part: MeasuredPart) -> Iterator[RuleResult]:
     """One result for every declared gap, from its number alone."""
-    for gap in gaps:
-        open_ = gap.width >= profile.minimum_gap - 1e-9
-        message = f"{gap.name} {gap.width:g} mm {_against(open_, profile)}"
-        yield _result("gap", open_, gap.width, profile.minimum_gap, gap.name, message)
+    for gap in part.model.gaps:
+        open_ = gap.width >= part.profile.minimum_gap - 1e-9
+        message = f"{gap.name} {gap.width:g} mm {_against(open_, part.profile)}"
+        yield _result("gap", open_, gap.width, part.profile.minimum_gap, gap.name, message)
 
 
-def check_measured_gaps(
-    boundary: Boundary, gaps: Iterable[DeclaredGap], profile: PrinterProfile
-) -> Iterator[RuleResult]:
+def check_measured_gaps(part: MeasuredPart) -> Iterator[RuleResult]:
     """Narrowest air outside (`gap_measured`) and in the cavity (`cavity_width`), and every declared
     gap found between parallel walls outside (`gap_as_declared`)."""
-    declared = tuple(gaps)
+    boundary, declared, profile = part.boundary, part.model.gaps, part.profile
     reach = max([WIDEST, *(gap.width + 0.5 for gap in declared)])
     outside = _air(boundary, boundary.outside, reach)
     yield _narrowest("gap_measured", "outside", outside, profile)
@@ -50,8 +47,8 @@ def _air(boundary: Boundary, samples: Samples, reach: float) -> Slabs:
 
 
 def _narrowest(rule: str, scope: str, slabs: Slabs, profile: PrinterProfile) -> RuleResult:
-    """The width that at least the smallest countable area of wall falls below."""
-    needed = max(1, int(np.ceil(SMALLEST_WALL / slabs.area)))
+    """The width that is not exceeded on `SMALLEST_AREA` of wall."""
+    needed = max(1, int(np.ceil(SMALLEST_AREA / slabs.area)))
     if len(slabs.thickness) < needed:
         message = f"no walls stand close to each other {_inside(scope)}"
         return _result(rule, True, "none", profile.minimum_gap, "whole part", message)
@@ -68,7 +65,7 @@ def _as_declared(gap: DeclaredGap, slabs: Slabs) -> RuleResult:
     widths = slabs.thickness[slabs.parallel]
     alike = np.abs(widths - gap.width) <= FACET_TOLERANCE + 1e-6
     area = float(alike.sum() * slabs.area)
-    found = area >= SMALLEST_WALL
+    found = area >= SMALLEST_AREA
     measured: float | str = gap.width
     message = f"{gap.name} {gap.width:g} mm was measured on {area:.0f} mm²"
     if not found:
@@ -80,7 +77,7 @@ def _as_declared(gap: DeclaredGap, slabs: Slabs) -> RuleResult:
 def _result(
     rule: str, good: bool, measured: float | str, required: float, where: str, message: str
 ) -> RuleResult:
-    return RuleResult(rule, "pass" if good else "fail", measured, required, "mm", where, message)
+    return RuleResult(rule, pass_or_fail(good), measured, required, "mm", where, message)
 
 
 def _inside(scope: str) -> str:

@@ -12,17 +12,15 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from printers.arrays import Flags, Floats
 from printers.measure.boundary import Boundary
 from printers.measure.box_tree import first_hits
-from printers.measure.surface import Samples
+from printers.measure.part import MeasuredPart
+from printers.measure.samples import Samples
 from printers.profile import PrinterProfile
 from printers.report import RuleResult, Verdict, place
-from printers.rules.walls import SMALLEST_WALL
-
-Floats = NDArray[np.float64]
-Flags = NDArray[np.bool_]
+from printers.tolerances import SMALLEST_AREA
 
 DIRECTIONS = 12  # every 15 degrees: a span is overestimated by 1 % at most
 MOST_POINTS = 2_000  # rays go out in every direction from each
@@ -54,15 +52,16 @@ def measure_overhangs(boundary: Boundary, profile: PrinterProfile) -> Overhangs:
     )
 
 
-def check_overhangs(overhangs: Overhangs, profile: PrinterProfile) -> Iterator[RuleResult]:
+def check_overhangs(part: MeasuredPart) -> Iterator[RuleResult]:
     """Three rules.
 
     `bridge`: roofs inside fail when they span more than the printer bridges, those outside warn;
     `overhang` warns of faces that hang free; `support` says what is printed over air inside, where
     no support can be taken out.
     """
-    yield _check_bridges(overhangs, profile)
-    yield _check_free(overhangs, profile)
+    overhangs = measure_overhangs(part.boundary, part.profile)
+    yield _check_bridges(overhangs, part.profile)
+    yield _check_free(overhangs, part.profile)
     yield _check_inside(overhangs)
 
 
@@ -84,7 +83,7 @@ def _check_free(overhangs: Overhangs, profile: PrinterProfile) -> RuleResult:
     free = ~np.isfinite(overhangs.span)
     area = float(free.sum() * overhangs.samples.area)
     angle = profile.maximum_overhang_angle
-    if area < SMALLEST_WALL:
+    if area < SMALLEST_AREA:
         message = f"no face beyond {angle:g}° from the vertical hangs free"
         return RuleResult("overhang", "pass", 0.0, 0.0, "mm²", "whole part", message)
     points = overhangs.samples.points[free]
@@ -135,8 +134,7 @@ def _spans(boundary: Boundary, samples: Samples, profile: PrinterProfile) -> Flo
 
 def _support(boundary: Boundary, points: Floats, half_layer: Floats, ray: Floats) -> Floats:
     """Distance to the support below each point's strand; inf if the strand ends before it."""
-    nobody = np.full(len(points), -1, dtype=np.int64)
-    tree = boundary.surface.tree
-    support = first_hits(tree, points - half_layer, points - half_layer + ray, nobody)[0]
-    strand = first_hits(tree, points + half_layer, points + half_layer + ray, nobody)[0]
+    tree, below, above = boundary.surface.tree, points - half_layer, points + half_layer
+    support = first_hits(tree, below, below + ray)[0]
+    strand = first_hits(tree, above, above + ray)[0]
     return np.where(strand < support, np.inf, support)

@@ -1,4 +1,4 @@
-"""Is there enough material between the cavity and the outside, everywhere?
+"""Between the cavity and the outside there must be enough material to seal, everywhere.
 
 The thickness at a point of the cavity's wall is its distance to the outside. That is what air has
 to cross, whatever the fillets and edges around, and it does not depend on the triangulation.
@@ -13,17 +13,16 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from printers.arrays import Floats, Ints
 from printers.measure.boundary import Boundary
+from printers.measure.closest_point import closest_on_triangles
+from printers.measure.part import MeasuredPart
 from printers.profile import PrinterProfile
-from printers.report import RuleResult, place
-from printers.rules.walls import FACET_TOLERANCE, WallSurvey
-
-Floats = NDArray[np.float64]
+from printers.report import RuleResult, pass_or_fail, place
+from printers.tolerances import FACET_TOLERANCE, ROUNDING
 
 CANDIDATES = 8  # triangles looked at for the nearest one
-ROUNDING = 1e-3  # mm
 UPRIGHT = float(np.cos(np.radians(30.0)))  # ways out this close to the vertical cross layers
 
 
@@ -36,33 +35,31 @@ class Thinnest:
     point: Floats
 
 
-def check_sealing_walls(
-    boundary: Boundary, survey: WallSurvey, profile: PrinterProfile
-) -> Iterator[RuleResult]:
+def check_sealing_walls(part: MeasuredPart) -> Iterator[RuleResult]:
     """The rules `minimum_lines`, and `minimum_layers` for ways out nearly upright."""
-    points, way = _ways_out(boundary, survey, profile)
+    profile = part.profile
+    points, way = ways_out(part)
     counts = way / _scale(profile)
     sideways = np.abs(way[:, 2]) <= UPRIGHT * np.linalg.norm(way, axis=1)
+    lines = f"{profile.minimum_lines} lines of {profile.line_width:g} mm"
+    layers = f"{profile.minimum_solid_layers} layers of {profile.layer_height:g} mm"
     for rule, which, made_of in (
-        ("minimum_lines", sideways, f"{profile.minimum_lines} lines of {profile.line_width:g} mm"),
-        (
-            "minimum_layers",
-            ~sideways,
-            f"{profile.minimum_solid_layers} layers of {profile.layer_height:g} mm",
-        ),
+        ("minimum_lines", sideways, lines),
+        ("minimum_layers", ~sideways, layers),
     ):
         thinnest = _thinnest(points[which], way[which], counts[which])
-        yield _judge(rule, thinnest, boundary.has_cavity, made_of)
+        yield _judge(rule, thinnest, part.boundary.has_cavity, made_of)
 
 
-def _ways_out(
-    boundary: Boundary, survey: WallSurvey, profile: PrinterProfile
-) -> tuple[Floats, Floats]:
-    if boundary.has_cavity:
-        points = _cavity_points(boundary)
-        return points, _nearest_outside(boundary, points, _scale(profile)) - points
-    # What is left to judge are the parallel walls seen by the survey.
-    slabs = survey.slabs.chosen(survey.slabs.parallel)
+def ways_out(part: MeasuredPart) -> tuple[Floats, Floats]:
+    """Points (k, 3) mm of the cavity's wall, and the way (k, 3) mm to the nearest outside.
+
+    Without a cavity only the parallel walls of the survey are left, each crossed at its middle.
+    """
+    if part.boundary.has_cavity:
+        points = _cavity_points(part.boundary)
+        return points, _nearest_outside(part.boundary, points, _scale(part.profile)) - points
+    slabs = part.walls.slabs.chosen(part.walls.slabs.parallel)
     return slabs.middle, slabs.thickness[:, None] * slabs.normal
 
 
@@ -91,15 +88,8 @@ def _judge(rule: str, thinnest: Thinnest | None, has_cavity: bool, made_of: str)
         f"{'has' if enough else 'has less than'} the {made_of} that seal "
         f"(facets may take {FACET_TOLERANCE:g} mm){scope}"
     )
-    return RuleResult(
-        rule,
-        "pass" if enough else "fail",
-        round(thinnest.thickness, 3),
-        round(thinnest.required, 3),
-        "mm",
-        where,
-        message,
-    )
+    measured, required = round(thinnest.thickness, 3), round(thinnest.required, 3)
+    return RuleResult(rule, pass_or_fail(enough), measured, required, "mm", where, message)
 
 
 def _cavity_points(boundary: Boundary) -> Floats:
@@ -126,7 +116,7 @@ def _nearest_outside(boundary: Boundary, points: Floats, scale: Floats) -> Float
     return best * scale
 
 
-def _outside_spots(boundary: Boundary) -> tuple[Floats, NDArray[np.int64]]:
+def _outside_spots(boundary: Boundary) -> tuple[Floats, Ints]:
     """Samples and vertices of the outside, each with a triangle it lies on."""
     surface = boundary.surface
     owner = np.full(len(surface.vertices), -1, dtype=np.int64)
@@ -137,45 +127,3 @@ def _outside_spots(boundary: Boundary) -> tuple[Floats, NDArray[np.int64]]:
         np.concatenate([boundary.outside.points, surface.vertices[used]]),
         np.concatenate([boundary.outside.triangle, owner[used]]),
     )
-
-
-def closest_on_triangles(corners: Floats, points: Floats) -> Floats:
-    """Nearest point (k, 3) of each triangle (k, 3, 3) to each point (k, 3).
-
-    The foot of the perpendicular if it falls inside the triangle, otherwise the nearest point of
-    the three sides.
-    """
-    inside = _foot(corners, points)
-    best, shortest = inside, np.linalg.norm(inside - points, axis=1)
-    shortest = np.where(np.isnan(shortest), np.inf, shortest)
-    for side in range(3):
-        close = _on_segments(corners[:, side], corners[:, (side + 1) % 3], points)
-        distance = np.linalg.norm(close - points, axis=1)
-        nearer = distance < shortest
-        best = np.where(nearer[:, None], close, best)
-        shortest = np.where(nearer, distance, shortest)
-    return np.asarray(best)
-
-
-def _foot(corners: Floats, points: Floats) -> Floats:
-    """Foot of the perpendicular on the triangle's plane; NaN where it lies outside of it."""
-    origin = corners[:, 0]
-    first, second = corners[:, 1] - origin, corners[:, 2] - origin
-    normal = np.cross(first, second)
-    square = np.einsum("ij,ij->i", normal, normal)
-    offset = points - origin
-    with np.errstate(divide="ignore", invalid="ignore"):
-        u = np.einsum("ij,ij->i", np.cross(offset, second), normal) / square
-        v = np.einsum("ij,ij->i", np.cross(first, offset), normal) / square
-    inside = (u >= 0) & (v >= 0) & (u + v <= 1)
-    foot = (
-        origin + np.where(inside, u, 0)[:, None] * first + np.where(inside, v, 0)[:, None] * second
-    )
-    return np.where(inside[:, None], foot, np.nan)
-
-
-def _on_segments(start: Floats, end: Floats, points: Floats) -> Floats:
-    along = end - start
-    square = np.maximum(np.einsum("ij,ij->i", along, along), 1e-300)
-    fraction = np.clip(np.einsum("ij,ij->i", points - start, along) / square, 0, 1)
-    return np.asarray(start + fraction[:, None] * along)

@@ -6,181 +6,91 @@ declared wall is judged by its number, and the mesh is measured to see that it s
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator
 
-import numpy as np
-
-from printers.measure.boundary import Boundary
-from printers.measure.slabs import STEADY_SPREAD, Flags, Floats, Slabs, flat, measure_slabs, steady
+from printers.measure.part import MeasuredPart
+from printers.measure.wall_survey import MeasuredWall, WallSurvey
 from printers.model import DeclaredWall, WallKind
 from printers.profile import PrinterProfile
-from printers.report import RuleResult, place
+from printers.report import RuleResult, pass_or_fail, place
+from printers.tolerances import FACET_TOLERANCE, SMALLEST_AREA
 
-FACET_TOLERANCE = 0.02  # mm: the chord error allowed to the STL
-SMALLEST_WALL = 1.0  # mm²: a smaller measured area is no wall
-LINKED = 0.03  # mm: measured thicknesses closer than this belong together
-LEVEL = float(np.cos(np.radians(10.0)))  # floors and roofs, whose thickness is counted in layers
 WHOLE = 0.02  # a declared thickness may miss a whole number by this part of a line or layer
 
 
-@dataclass(frozen=True)
-class MeasuredWall:
-    """Walls of one thickness: `thickness` (median), `low`, `high` in mm, `area` in mm², a `place`
-    (3,) mm in the middle of one such wall and its `normal` (3,)."""
-
-    kind: WallKind
-    thickness: float
-    low: float
-    high: float
-    area: float
-    place: Floats
-    normal: Floats
-
-    @property
-    def tapered(self) -> bool:
-        return self.high - self.low > STEADY_SPREAD
-
-
-@dataclass(frozen=True)
-class WallSurvey:
-    """Everything measured through the material: `slabs`, and which of them are parts of `walls`."""
-
-    slabs: Slabs
-    walls: tuple[MeasuredWall, ...]
-
-    def area_of(self, wall: DeclaredWall) -> float:
-        """Area in mm² on which the declared thickness was found between parallel faces."""
-        slabs = self.slabs
-        standing = slabs.vertical if wall.kind == "lines" else ~slabs.vertical
-        alike = np.abs(slabs.thickness - wall.thickness) <= FACET_TOLERANCE + 1e-6
-        return float((standing & alike & slabs.parallel).sum() * slabs.area)
-
-
-def survey_walls(
-    boundary: Boundary, declared: Iterable[DeclaredWall], profile: PrinterProfile
-) -> WallSurvey:
-    """Measure every wall of the cavity, up to the thickest declared or made of perimeters alone.
-
-    Without a closed cavity every wall of the part is measured, from both of its sides.
-    """
-    surface = boundary.surface
-    samples = boundary.inside if boundary.has_cavity else boundary.samples
-    reach = max([profile.thickest_wall_of_lines, *(wall.thickness for wall in declared)]) + 0.1
-    slabs = measure_slabs(surface, samples, "material", reach)
-    parallel = slabs.chosen(slabs.parallel)
-    plane = flat(surface, parallel, profile.line_width)
-    constant = steady(slabs)[slabs.parallel]
-    level = np.abs(parallel.normal[:, 2]) >= LEVEL
-    standing = parallel.vertical & (parallel.thickness <= profile.thickest_wall_of_lines + 1e-6)
-    walls = [
-        *_groups(parallel, standing & (plane | constant), "lines"),
-        *_groups(parallel, level & plane, "layers"),
-    ]
-    return WallSurvey(slabs, tuple(walls))
-
-
-def check_declared_walls(
-    walls: Iterable[DeclaredWall], profile: PrinterProfile
-) -> Iterator[RuleResult]:
+def check_declared_walls(part: MeasuredPart) -> Iterator[RuleResult]:
     """One result for every declared wall, from its number alone."""
-    for wall in walls:
-        count = wall.thickness / _unit(wall.kind, profile)
-        whole = abs(count - round(count)) <= WHOLE and round(count) >= 1
-        message = (
-            f"{wall.name} {wall.thickness:g} mm is {count:.4g} {wall.kind} of "
-            f"{_unit(wall.kind, profile):g} mm" + ("" if whole else ", not a whole number")
-        )
-        yield RuleResult(
-            "wall_multiple",
-            "pass" if whole else "fail",
-            round(count, 4),
-            "whole number",
-            wall.kind,
-            wall.name,
-            message,
-        )
+    for wall in part.model.walls:
+        yield _multiple(wall, part.profile)
 
 
-def check_measured_walls(survey: WallSurvey, profile: PrinterProfile) -> Iterator[RuleResult]:
+def check_measured_walls(part: MeasuredPart) -> Iterator[RuleResult]:
     """One result for every thickness found on the mesh."""
-    for wall in survey.walls:
-        unit = _unit(wall.kind, profile)
-        count = wall.thickness / unit
-        # Half a layer would be lost in a fixed tolerance where layers are very thin.
-        tolerance = min(FACET_TOLERANCE, unit / 4)
-        off = abs(wall.thickness - max(round(count), 1) * unit) > tolerance
-        yield RuleResult(
-            "wall_multiple_measured",
-            "fail" if off or wall.tapered else "pass",
-            round(count, 2),
-            "whole number",
-            wall.kind,
-            place(wall.place),
-            _describe(wall, count, off, tolerance),
-        )
+    for wall in part.walls.walls:
+        yield _multiple_measured(wall, part.profile)
 
 
-def check_declared_against_measured(
-    walls: Iterable[DeclaredWall], survey: WallSurvey
-) -> Iterator[RuleResult]:
+def check_walls_as_declared(part: MeasuredPart) -> Iterator[RuleResult]:
     """A declared wall must be found on the mesh, between parallel faces, as thick as declared."""
-    for wall in walls:
-        area = survey.area_of(wall)
-        found = area >= SMALLEST_WALL
-        alike = [other for other in survey.walls if other.kind == wall.kind]
-        nearest = min(alike, key=lambda other: abs(other.thickness - wall.thickness), default=None)
-        measured: float | str = round(wall.thickness, 4)
-        message = f"{wall.name} {wall.thickness:g} mm was measured on {area:.0f} mm²"
-        if not found:
-            measured = round(nearest.thickness, 4) if nearest else "none"
-            message = f"{wall.name} {wall.thickness:g} mm was found nowhere on the mesh"
-        if not found and nearest:
-            message += f"; the nearest is {nearest.thickness:.3f} mm at {place(nearest.place)}"
-        yield RuleResult(
-            "wall_as_declared",
-            "pass" if found else "fail",
-            measured,
-            round(wall.thickness, 4),
-            "mm",
-            wall.name,
-            message,
-        )
+    for wall in part.model.walls:
+        yield _as_declared(wall, part.walls)
 
 
-def group_by_thickness(thickness: Floats, area: float) -> Iterator[Flags]:
-    """Split (k,) values wherever sorted neighbours lie further apart than `LINKED`; skip specks."""
-    order = np.argsort(thickness, kind="stable")
-    breaks = np.flatnonzero(np.diff(thickness[order]) > LINKED) + 1
-    for members in np.split(order, breaks):
-        if len(members) * area >= SMALLEST_WALL:
-            flags = np.zeros(len(thickness), dtype=bool)
-            flags[members] = True
-            yield flags
-
-
-def _groups(slabs: Slabs, which: Flags, kind: WallKind) -> Iterator[MeasuredWall]:
-    walls = slabs.chosen(which)
-    for members in group_by_thickness(walls.thickness, walls.area):
-        yield _measured(walls.chosen(members), kind)
-
-
-def _measured(slabs: Slabs, kind: WallKind) -> MeasuredWall:
-    low, median, high = np.quantile(slabs.thickness, [0.01, 0.5, 0.99])
-    typical = np.abs(slabs.thickness - median) <= max(FACET_TOLERANCE, (high - low) / 4)
-    # A real point of such a wall, nearest to the middle of them all: the mean of several walls
-    # would lie in the air between them.
-    middles = slabs.middle[typical]
-    chosen = int(np.linalg.norm(middles - np.median(middles, axis=0), axis=1).argmin())
-    return MeasuredWall(
-        kind,
-        float(median),
-        float(low),
-        float(high),
-        len(slabs.thickness) * slabs.area,
-        middles[chosen],
-        slabs.normal[typical][chosen],
+def _multiple(wall: DeclaredWall, profile: PrinterProfile) -> RuleResult:
+    unit = _unit(wall.kind, profile)
+    count = wall.thickness / unit
+    whole = abs(count - round(count)) <= WHOLE and round(count) >= 1
+    message = (
+        f"{wall.name} {wall.thickness:g} mm is {count:.4g} {wall.kind} of {unit:g} mm"
+        f"{'' if whole else ', not a whole number'}"
     )
+    return _whole_number("wall_multiple", whole, round(count, 4), wall.kind, wall.name, message)
+
+
+def _multiple_measured(wall: MeasuredWall, profile: PrinterProfile) -> RuleResult:
+    unit = _unit(wall.kind, profile)
+    count = wall.thickness / unit
+    # Half a layer would be lost in a fixed tolerance where layers are very thin.
+    tolerance = min(FACET_TOLERANCE, unit / 4)
+    off = abs(wall.thickness - max(round(count), 1) * unit) > tolerance
+    good, where = not (off or wall.tapered), place(wall.place)
+    message = _describe(wall, count, off, tolerance)
+    return _whole_number("wall_multiple_measured", good, round(count, 2), wall.kind, where, message)
+
+
+def _whole_number(
+    rule: str, good: bool, count: float, kind: WallKind, where: str, message: str
+) -> RuleResult:
+    return RuleResult(rule, pass_or_fail(good), count, "whole number", kind, where, message)
+
+
+def _as_declared(wall: DeclaredWall, survey: WallSurvey) -> RuleResult:
+    area = survey.area_of(wall)
+    found = area >= SMALLEST_AREA
+    required = round(wall.thickness, 4)
+    measured: float | str = required
+    message = f"was measured on {area:.0f} mm²"
+    if not found:
+        measured, message = _nearest(wall, survey)
+    return RuleResult(
+        "wall_as_declared",
+        pass_or_fail(found),
+        measured,
+        required,
+        "mm",
+        wall.name,
+        f"{wall.name} {wall.thickness:g} mm {message}",
+    )
+
+
+def _nearest(wall: DeclaredWall, survey: WallSurvey) -> tuple[float | str, str]:
+    """Thickness of the wall of the same kind that comes nearest, and words on it."""
+    alike = [other for other in survey.walls if other.kind == wall.kind]
+    if not alike:
+        return "none", "was found nowhere on the mesh"
+    nearest = min(alike, key=lambda other: abs(other.thickness - wall.thickness))
+    where = f"{nearest.thickness:.3f} mm at {place(nearest.place)}"
+    return round(nearest.thickness, 4), f"was found nowhere on the mesh; the nearest is {where}"
 
 
 def _describe(wall: MeasuredWall, count: float, off: bool, tolerance: float) -> str:

@@ -9,14 +9,12 @@ from typing import Any
 import pytest
 from fakes import fake_report
 
-from bellows_design.analysis.budget import DEFAULT, Budget
+from bellows_design.budget import DEFAULT, Budget
 from bellows_design.design.design import Design
 from bellows_design.export.formats import Part
 from bellows_design.geometry.tessellation import tessellate
-from bellows_design.progress import Progress, Silence
+from bellows_design.progress import SILENCE, Progress
 from printers import PrintabilityReport
-
-SILENCE = Silence()
 
 
 @pytest.fixture(scope="session")
@@ -46,6 +44,7 @@ def stub_stages(monkeypatch: pytest.MonkeyPatch, cube_part: Part) -> Callable[..
             pressures: Sequence[float] = (),
             progress: Progress = SILENCE,
             budget: Budget = DEFAULT,
+            refine_while: Any = None,
         ) -> Any:
             progress.stage("solve")
             if isinstance(evaluation, BaseException):

@@ -3,66 +3,68 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from types import SimpleNamespace
 from typing import Any
 
+from bellows_design.analysis.computation import Seconds
+from bellows_design.analysis.evaluation import Evaluation, MeshReading, MeshSize, SolverEffort
+from bellows_design.analysis.material_range import ReachedStrain
+from bellows_design.analysis.whole_actuator import Reading
+from bellows_design.design import Design, load_design
 from printers import PrintabilityReport, RuleResult
 
 
 @dataclass(frozen=True)
 class FakeEstimate:
     max_von_mises_percent: float | None = 1.0
+    bending_angle_percent: float | None = 1.0
 
 
 @dataclass(frozen=True)
-class FakeStrain:
+class FakeStrain(ReachedStrain):
     lowest: float = -0.2
     highest: float = 0.3
     elongation_at_break: float | None = 6.6
 
-    @property
-    def breaks(self) -> bool:
-        return self.elongation_at_break is not None and self.highest > self.elongation_at_break
-
 
 @dataclass(frozen=True)
-class FakeEvaluation:
+class FakeContact:
+    detected: bool = False
+    min_gap_mm: float | None = 0.5
+    inner_gap_mm: float | None = None
+    where: tuple[str, ...] = ()
+    note: str = ""
+
+
+MESHES = (MeshReading(MeshSize(1, 10, 34), Reading(0.1, 400.0, 3.0, 1000.0)),)
+
+
+@dataclass(frozen=True, kw_only=True)
+class FakeEvaluation(Evaluation):
     """An evaluation with made-up numbers."""
 
+    design: Design = field(default_factory=lambda: load_design("prototype_1"))
+    model: Any = field(default_factory=lambda: SimpleNamespace(name="half"))
+    reason: str = "as asked for"
     converged: bool = True
-    can_refine: bool = False
     message: str = ""
+    stable: bool | None = True
     pressure_mpa: float = 0.1
+    limit_pressure_mpa: float | None = None
     bending_angle_deg: float = 400.0
     max_von_mises_mpa: float = 3.0
-    error_estimate: FakeEstimate = field(default_factory=FakeEstimate)
-    curve: tuple[dict[str, float], ...] = ()
-    strain: FakeStrain = field(default_factory=FakeStrain)
-    warnings: tuple[str, ...] = ()
-
-    def to_dict(self) -> dict[str, Any]:
-        return {
-            "design": "fake",
-            "model": "half",
-            "model_reason": "as asked for",
-            "pressure_mpa": self.pressure_mpa,
-            "converged": self.converged,
-            "message": self.message,
-            "bending_angle_deg": self.bending_angle_deg,
-            "max_von_mises_mpa": self.max_von_mises_mpa,
-            "max_von_mises_position_mm": [1.0, 2.0, 3.0],
-            "cavity_volume_mm3": 1000.0,
-            "strain": {"lowest": -0.2, "highest": self.strain.highest, "valid": None},
-            "warnings": list(self.warnings),
-            "contact": {"detected": False, "min_gap_mm": 0.5},
-            "error_estimate": {
-                "bending_angle_percent": 1.0,
-                "max_von_mises_percent": self.error_estimate.max_von_mises_percent,
-            },
-            "mesh": {"elements": 1, "nodes": 10, "unknowns": 34},
-            "solver": {"load_steps": 1, "newton_iterations": 2, "linear_solver": "none"},
-            "seconds": {"total": 0.0},
-            "curve": self.curve,
-        }
+    max_von_mises_position_mm: tuple[float, float, float] = (1.0, 2.0, 3.0)
+    cavity_volume_mm3: float = 1000.0
+    error_estimate: Any = field(default_factory=FakeEstimate)
+    strain: ReachedStrain = field(default_factory=FakeStrain)
+    warnings: tuple[str, ...] = ()  # type: ignore[assignment]
+    contact: Any = field(default_factory=FakeContact)
+    meshes: tuple[MeshReading, ...] = MESHES
+    solver: SolverEffort = field(default_factory=lambda: SolverEffort(1, 2, 2, "none"))
+    seconds: Seconds = field(default_factory=Seconds)
+    path: tuple[Reading, ...] = ()
+    curve: tuple[Reading, ...] = ()
+    computation: Any = None
 
 
 def fake_report(*rules: RuleResult) -> PrintabilityReport:

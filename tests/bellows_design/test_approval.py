@@ -9,8 +9,8 @@ import pytest
 from fakes import FakeEstimate, FakeEvaluation, FakeStrain, fake_report
 
 from bellows_design.approval import REQUIRED_RULES, decide
-from bellows_design.design.design import load_design
 from bellows_design.design.overrides import with_overrides
+from bellows_design.design.shipped import load_design
 from printers import PrintabilityReport, RuleResult
 
 DESIGN = load_design("prototype_1")

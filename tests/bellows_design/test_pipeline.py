@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import hashlib
 import json
+from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pytest
 import trimesh
+from fakes import FakeEstimate, FakeEvaluation
 
 from bellows_design import load_design, with_overrides
 from bellows_design.pipeline import run
@@ -40,6 +44,23 @@ def test_walls_of_no_whole_lines_are_refused_and_leave_nothing(tmp_path: Path) -
     rules = {reason.rule for reason in outcome.verdict.reasons}
     assert {"wall_multiple", "wall_multiple_measured"} <= rules
     assert list(tmp_path.iterdir()) == []
+
+
+def test_an_open_verdict_asks_for_a_finer_mesh_and_is_decided_again(
+    stub_stages: Callable[..., None], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    finer = FakeEvaluation(max_von_mises_mpa=3.8, error_estimate=FakeEstimate(1.0))
+    coarse = replace(finer, error_estimate=FakeEstimate(20.0))
+    asked: list[bool] = []
+
+    def evaluate(*_: Any, refine_while: Callable[..., bool], **__: Any) -> FakeEvaluation:
+        asked.extend(refine_while(state) for state in (coarse, finer))
+        return finer if asked[0] else coarse
+
+    stub_stages(finer)
+    monkeypatch.setattr("bellows_design.analysis.evaluate.evaluate", evaluate)
+    assert run(load_design("prototype_2"), tmp_path).verdict.approved
+    assert asked == [True, False]
 
 
 @pytest.mark.slow

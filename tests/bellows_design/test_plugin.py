@@ -13,8 +13,11 @@ import pytest
 from cadquery import cqgi
 
 from bellows_design import plugin
-from bellows_design.design.bellows_parameters import BellowsParameters, Indent, Port
-from bellows_design.design.design import Design, load_design
+from bellows_design.design.bellows_parameters import BellowsParameters
+from bellows_design.design.design import Design
+from bellows_design.design.indent import Indent
+from bellows_design.design.port import Port
+from bellows_design.design.shipped import load_design
 from bellows_design.geometry.actuator import printed_part
 
 SCRIPT = Path(__file__).parents[2] / "examples/design_script.py"

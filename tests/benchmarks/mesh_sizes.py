@@ -10,12 +10,14 @@ from __future__ import annotations
 
 import sys
 
-from bellows_design.analysis.budget import Budget
-from bellows_design.analysis.evaluation import Evaluation
+from bellows_design.analysis.computation import Computation
+from bellows_design.analysis.mesh_plan import first_plan
+from bellows_design.analysis.mesh_sequence import next_plan
 from bellows_design.analysis.models import HALF, UNIT_CELL
-from bellows_design.benchmark.study import evaluations
-from bellows_design.design.design import load_design, shipped_designs
+from bellows_design.benchmark.study import computations
+from bellows_design.budget import Budget
 from bellows_design.design.overrides import with_overrides
+from bellows_design.design.shipped import load_design, shipped_designs
 
 AMPLE = Budget(memory=100.0, mesh_seconds=3600.0)
 EXTREME = {
@@ -38,20 +40,18 @@ def main(cells: int = 2, halves: int = 1) -> None:
     for name, design in designs.items():
         gentle = with_overrides(design, [GENTLE])
         for model, meshes in ((UNIT_CELL, cells), (HALF, halves)):
-            before: Evaluation | None = None
-            for evaluation in evaluations(gentle, model, "", meshes, budget=AMPLE):
-                _print_row(name, before, evaluation)
-                before = evaluation
+            before: Computation | None = None
+            for computation in computations(gentle, model, "", meshes, budget=AMPLE):
+                _print_row(name, before, computation)
+                before = computation
 
 
-def _print_row(name: str, before: Evaluation | None, evaluation: Evaluation) -> None:
-    from bellows_design.analysis.mesh_plan import first_plan
-
-    first = first_plan(evaluation.solid, evaluation.design)
-    plan = first if before is None else before.next_mesh
-    actual = len(evaluation.finest.problem.mesh.tets)
+def _print_row(name: str, before: Computation | None, computation: Computation) -> None:
+    first = first_plan(computation.solid, computation.design)
+    plan = first if before is None else next_plan(before)
+    actual = len(computation.finest.problem.mesh.tets)
     print(
-        f"| {name} | {evaluation.model.name} | {plan.elements:.0f} | {actual} "
+        f"| {name} | {computation.model.name} | {plan.elements:.0f} | {actual} "
         f"| {plan.elements / actual:.2f} | {plan.memory:.2f} GiB |",
         flush=True,
     )

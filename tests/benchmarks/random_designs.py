@@ -18,7 +18,8 @@ import numpy as np
 
 from bellows_design.analysis.evaluate import evaluate
 from bellows_design.analysis.evaluation import Evaluation
-from bellows_design.design.design import Design, load_design
+from bellows_design.design.design import Design
+from bellows_design.design.shipped import load_design
 from solver import Solution
 from solver.assembly.assembly import Assembly
 
@@ -74,15 +75,15 @@ def result(design: Design) -> dict[str, Any]:
 
 
 def _found(evaluation: Evaluation) -> dict[str, Any]:
-    content = evaluation.to_dict()
+    content, solutions = evaluation.to_dict(), evaluation.computation.solutions
     return {
         "converged": evaluation.converged,
         "reason": "" if evaluation.converged else evaluation.message,
-        "straight": all(s.refused_steps == 0 for s in evaluation.solutions),
+        "straight": all(s.refused_steps == 0 for s in solutions),
         "right_inertia": all(
-            s.negative_pivots in (None, len(s.problem.mesh.vertices)) for s in evaluation.solutions
+            s.negative_pivots in (None, len(s.problem.mesh.vertices)) for s in solutions
         ),
-        "residual": imbalance(evaluation.finest),
+        "residual": imbalance(evaluation.computation.finest),
         "angle": content["bending_angle_deg"],
         "stress": content["max_von_mises_mpa"],
         "contact": content["contact"]["detected"],

@@ -18,15 +18,17 @@ from __future__ import annotations
 import json
 import os
 import sys
-from dataclasses import replace
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
 from bellows_design import load_design
-from bellows_design.analysis.budget import Budget
-from bellows_design.analysis.evaluate import evaluate, refined
-from bellows_design.analysis.evaluation import Evaluation
+from bellows_design.analysis.computation import Computation
+from bellows_design.analysis.evaluate import evaluate, mesh_size
+from bellows_design.analysis.mesh_sequence import refined
 from bellows_design.analysis.models import HALF
+from bellows_design.analysis.whole_actuator import reading
+from bellows_design.budget import Budget
 from bellows_design.design.design import Design
 from bellows_design.study.paper import TABLE_4
 from bellows_design.versions import versions
@@ -43,27 +45,34 @@ def designs() -> dict[str, Design]:
     return {case.label: case.build() for case in TABLE_4} | {"finger": load_design("finger")}
 
 
-def refined_to(elements: int, evaluation: Evaluation) -> Evaluation:
+def computed(design: Design, model: str) -> Computation:
+    """On the meshes that an evaluation uses."""
+    return evaluate(design, model, budget=AMPLE).computation
+
+
+def refined_to(elements: int, computation: Computation) -> Computation:
     """Refine until the finest mesh has so many elements."""
-    while len(evaluation.finest.problem.mesh.tets) < elements and evaluation.converged:
-        if len(evaluation.solutions) >= PATIENCE:
+    while len(computation.finest.problem.mesh.tets) < elements and computation.converged:
+        if len(computation.solved) >= PATIENCE:
             break
-        evaluation = refined(evaluation)
-    return evaluation
+        computation = refined(computation)
+    return computation
 
 
-def levels(evaluation: Evaluation) -> list[dict[str, Any]]:
+def levels(computation: Computation) -> list[dict[str, Any]]:
     """Every mesh: its size, angle and stress with its place."""
     return [
-        mesh | {"position_mm": list(peak.position)}
-        for mesh, peak in zip(evaluation.to_dict()["meshes"], evaluation.peaks, strict=True)
+        asdict(mesh_size(mesh.solution))
+        | asdict(reading(computation, mesh.solution.path[-1]))
+        | {"position_mm": list(mesh.peak.position)}
+        for mesh in computation.solved
     ]
 
 
 def finest_half(design: Design) -> list[dict[str, Any]]:
     """Half of the actuator, refined as far as the machine's memory allows."""
-    start = evaluate(design, "half", budget=AMPLE)
-    fast = replace(start, model=replace(HALF, growth=4.0), solutions=start.solutions[:1])
+    start = computed(design, "half")
+    fast = replace(start, model=replace(HALF, growth=4.0), solved=start.solved[:1])
     return levels(refined_to(HALF_ELEMENTS, fast))
 
 
@@ -74,8 +83,8 @@ def main(target: str, *labels: str) -> None:
     for label, design in designs().items():
         if label in known["designs"] or (labels and label not in labels):
             continue
-        cell = refined_to(CELL_ELEMENTS, evaluate(design, "unit-cell", budget=AMPLE))
-        half = evaluate(design, "half", budget=AMPLE)
+        cell = refined_to(CELL_ELEMENTS, computed(design, "unit-cell"))
+        half = computed(design, "half")
         found = {"cell": levels(cell), "half": levels(half), "digest": design.digest}
         known["designs"][label] = found
         print(label, found["cell"][-1], found["half"][-1], flush=True)

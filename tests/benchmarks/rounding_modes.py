@@ -60,8 +60,7 @@ def cells() -> Iterator[tuple[str, Callable[[], Iterable[Any]]]]:
     from bellows_design.study.paper import TABLE_4
 
     def solutions(design: Any) -> Iterable[Any]:
-        evaluation = evaluate(design, "unit-cell")
-        return [*evaluation.solutions, *([evaluation.ends] if evaluation.ends else [])]
+        return evaluate(design, "unit-cell").computation.all_solutions
 
     for case in TABLE_4:
         yield case.label, lambda case=case: solutions(case.build())  # type: ignore[misc]

@@ -7,10 +7,10 @@ from functools import cache
 from hard_case import Finding, HardCase, at_most, exactly, true, within
 
 from bellows_design import load_design, with_overrides
-from bellows_design.analysis.budget import DEFAULT
 from bellows_design.analysis.evaluate import evaluate
 from bellows_design.analysis.mesh_plan import first_plan
 from bellows_design.analysis.models import UNIT_CELL
+from bellows_design.budget import DEFAULT
 from bellows_design.design.design import Design
 from solver import Solution, solve
 

@@ -12,6 +12,7 @@ from manifold3d import CrossSection, JoinType, Manifold, Mesh64
 from numpy.typing import NDArray
 
 from printers import Opening, PrintedModel, PrinterProfile, load_profile
+from printers.measure.part import MeasuredPart
 
 SEGMENTS = 96
 
@@ -71,6 +72,10 @@ def model(solid: Manifold, **declared: Any) -> PrintedModel:
     return PrintedModel(*arrays(solid), **declared)
 
 
+def part(solid: Manifold, profile: PrinterProfile, **declared: Any) -> MeasuredPart:
+    return MeasuredPart(model(solid, **declared), profile)
+
+
 def bellows(wall: float, tendon_wall: float, chamber: float, gap: float, bubbles: int) -> Manifold:
     """Bubbles with rounded ends on a tendon with a channel, a port boss standing on the bed."""
     length, pitch = chamber + 2 * wall, chamber + 2 * wall + gap
@@ -100,7 +105,7 @@ def solids() -> SimpleNamespace:
     """The builders above, by name."""
     return SimpleNamespace(
         block=block, bore=bore, rounded_bar=rounded_bar, hollow_box=hollow_box, port_of=port_of,
-        arrays=arrays, model=model, bellows=bellows, Manifold=Manifold, Mesh64=Mesh64,
+        arrays=arrays, model=model, part=part, bellows=bellows, Manifold=Manifold, Mesh64=Mesh64,
         CrossSection=CrossSection,
     )  # fmt: skip
 

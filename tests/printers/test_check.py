@@ -18,6 +18,7 @@ from printers import (
     PrintabilityReport,
     PrintedModel,
     PrinterProfile,
+    PrintersError,
     check_printability,
     load_profile,
 )
@@ -125,7 +126,7 @@ def test_the_verdicts_do_not_depend_on_where_the_part_lies_on_the_bed(
 def test_a_mesh_without_area_is_refused(prusa: PrinterProfile) -> None:
     line = np.array([[0, 0, 0], [10, 0, 0], [20, 0, 0], [30, 0, 0]], dtype=float)
     model = PrintedModel(line, np.array([[0, 1, 2], [1, 2, 3], [0, 2, 3], [0, 1, 3]]))
-    with pytest.raises(ValueError, match="no triangle with an area"):
+    with pytest.raises(PrintersError, match="no triangle with an area"):
         check_printability(model, prusa)
 
 

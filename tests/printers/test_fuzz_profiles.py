@@ -15,8 +15,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import printers
-from printers import PrinterProfile, load_profile
-from printers.profile import LARGEST_FILE
+from printers import PrinterProfile, PrintersError, load_profile
+from printers.profile_files import LARGEST_FILE
 
 LONGEST_LINE = 1000
 BASE = (Path(printers.__file__).parent / "profiles" / "prusa_i3.toml").read_bytes()
@@ -25,11 +25,11 @@ BAD = tuple(value.encode("utf-8", "surrogatepass") for value in (*BAD_VALUES, *L
 
 
 def refused_in_one_line(load: Callable[[], object]) -> bool:
-    """True if ``load`` refused as documented; any error but ``ValueError`` goes through."""
+    """True if ``load`` refused as documented; any error but ``PrintersError`` goes through."""
     with soon():
         try:
             load()
-        except ValueError as error:
+        except PrintersError as error:
             assert 0 < len(str(error)) < LONGEST_LINE
             assert len(str(error).splitlines()) == 1
             return True

@@ -1,4 +1,4 @@
-"""What the check refuses to look at."""
+"""Parts and declarations that are refused."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from printers import DeclaredGap, DeclaredWall, Opening, PrintedModel
+from printers import DeclaredGap, DeclaredWall, Opening, PrintedModel, PrintersError
 
 
 @pytest.mark.parametrize(
@@ -25,26 +25,26 @@ from printers import DeclaredGap, DeclaredWall, Opening, PrintedModel
     ],
 )
 def test_a_bad_declaration_is_named(build: Callable[[], object], words: list[str]) -> None:
-    with pytest.raises(ValueError) as error:
+    with pytest.raises(PrintersError) as error:
         build()
     assert all(word in str(error.value) for word in words), str(error.value)
 
 
 def test_a_part_in_metres_is_refused(solids: SimpleNamespace) -> None:
     vertices, triangles = solids.arrays(solids.hollow_box())
-    with pytest.raises(ValueError, match="units"):
+    with pytest.raises(PrintersError, match="units"):
         PrintedModel(vertices / 1000, triangles)
-    with pytest.raises(ValueError, match="units"):
+    with pytest.raises(PrintersError, match="units"):
         PrintedModel(vertices * 1000, triangles)
 
 
 def test_malformed_arrays_are_refused(solids: SimpleNamespace) -> None:
     vertices, triangles = solids.arrays(solids.hollow_box())
-    with pytest.raises(ValueError, match="finite"):
+    with pytest.raises(PrintersError, match="finite"):
         PrintedModel(np.where(vertices == vertices.max(), np.nan, vertices), triangles)
-    with pytest.raises(ValueError, match="count from 0"):
+    with pytest.raises(PrintersError, match="count from 0"):
         PrintedModel(vertices, triangles + len(vertices))
-    with pytest.raises(ValueError, match="shape"):
+    with pytest.raises(PrintersError, match="shape"):
         PrintedModel(vertices[:, :2], triangles)
 
 

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
 from bellows_design.materials.fitting.measurements import Measurements
+from bellows_design.materials.fitting.weighted import Weighted
 from solver.material.homogeneous import MODES, Reals, nominal_stress
-from solver.material.stability import Stability
+from solver.material.stability import Stability, stability
 
 VANISHED = 1e-4
 """Relative part of the stress below which a term adds nothing anywhere."""
@@ -19,7 +19,7 @@ VANISHED = 1e-4
 OPEN_FACTOR, OPEN_EXPONENT = 10.0, 2.0
 """Half-widths of an interval from which on a constant counts as not determined."""
 
-RIVAL = 0.1
+SAME_STRESS = 0.1
 """Relative difference in stress from which on equally good fits are not the same."""
 
 BEST_ERROR = 0.01
@@ -28,9 +28,10 @@ BEST_ERROR = 0.01
 
 @dataclass(frozen=True)
 class Constant:
-    """A fitted constant: value, standard error and 95 % interval; an exponent may be given.
+    """A fitted constant with its 95 % interval; an exponent may be given instead of fitted.
 
-    ``signed`` is one of Yeoh's, which may be negative.
+    ``value``, ``standard_error``, ``low`` and ``high`` are in ``unit``. ``signed``: may be
+    negative, as Yeoh's.
     """
 
     name: str
@@ -46,7 +47,7 @@ class Constant:
     def determined(self) -> bool:
         """False if the measurements leave it open: μ by a factor of 10, α by 2 and by itself.
 
-        Of a signed constant the measurements must tell the sign.
+        Of a signed constant the measurements must determine the sign.
         """
         if self.fixed:
             return True
@@ -67,8 +68,31 @@ class Misfit:
 
 
 @dataclass(frozen=True)
+class Estimate:
+    """Constants as a law's own fit finds them, before they are compared with the measurements.
+
+    ``mu`` and ``higher`` in MPa; ``squares`` is the sum of squared relative errors; ``vanished``
+    if a term adds nothing; ``ambiguity`` see ``Fit.unique``.
+    """
+
+    mu: tuple[float, ...]
+    alpha: tuple[float, ...]
+    constants: tuple[Constant, ...]
+    squares: float
+    vanished: bool
+    higher: tuple[float, ...] = ()
+    ambiguity: float = 0.0
+
+
+@dataclass(frozen=True)
 class Fit:
-    """A fitted model. Terms are in the order of falling ``mu``; ``higher`` is of Yeoh's; MPa."""
+    """A fitted model.
+
+    ``mu`` (MPa) of the terms, in falling order, their ``alpha``, and ``higher`` of Yeoh's (MPa);
+    the number of ``points``, the coefficient of determination, the ``relative_error`` (root mean
+    square, a fraction), the largest error, the corrected information criterion, whether a term
+    adds nothing, how far equally good fits differ, and where the material is stable.
+    """
 
     model: str
     mu: tuple[float, ...]
@@ -80,7 +104,7 @@ class Fit:
     misfit: Misfit
     aicc: float
     vanished: bool
-    rivalry: float
+    ambiguity: float
     stability: Stability
     higher: tuple[float, ...] = ()
 
@@ -88,16 +112,16 @@ class Fit:
     def unique(self) -> bool:
         """False if quite other constants, found from another start, fit the tests as well.
 
-        Planar tests, for one, do not tell the sign of α. ``rivalry`` is the relative difference
-        that they make to the stress of any of the three tests.
+        Planar tests, for one, do not determine the sign of α. ``ambiguity`` is the relative
+        difference that they make to the stress of any of the three tests.
         """
-        return self.rivalry < RIVAL
+        return self.ambiguity < SAME_STRESS
 
     @property
     def determined(self) -> bool:
-        """True if the measurements tell every constant."""
-        told = all(constant.determined for constant in self.constants)
-        return told and self.unique and not self.vanished
+        """True if the measurements determine every constant."""
+        every = all(constant.determined for constant in self.constants)
+        return every and self.unique and not self.vanished
 
     @property
     def stable(self) -> bool:
@@ -117,30 +141,58 @@ class Choice(NamedTuple):
     tried: tuple[Fit, ...]
 
 
-def difference_of(
-    data: Measurements, mu: Reals, alpha: Reals, higher: Sequence[float] = ()
-) -> Reals:
+def judged(data: Measurements, problem: Weighted, model: str, found: Estimate) -> Fit:
+    """The fit of ``model`` that ``found`` makes: its errors, criterion and stability."""
+    difference = _difference(data, found)
+    relative = math.sqrt(found.squares / problem.informative)
+    free = sum(not constant.fixed for constant in found.constants)
+    return Fit(
+        model=model,
+        mu=found.mu,
+        alpha=found.alpha,
+        constants=found.constants,
+        points=data.stress.size,
+        r_squared=_r_squared(data.stress, difference),
+        relative_error=relative,
+        misfit=_misfit(data, difference),
+        aicc=_aicc(relative, problem.informative, free + 1),
+        vanished=found.vanished,
+        ambiguity=found.ambiguity,
+        stability=stability(found.mu, found.alpha, found.higher),
+        higher=found.higher,
+    )
+
+
+def student_width(freedom: int) -> float:
+    """Half-width of a 95 % interval in standard errors, with so many degrees of freedom."""
+    from scipy.stats import t as student
+
+    return float(student.ppf(0.975, freedom))
+
+
+def _difference(data: Measurements, found: Estimate) -> Reals:
     """(n,) model less measurement, MPa."""
     result = -data.stress
     for number, mode in enumerate(MODES.values()):
         chosen = data.mode == number
-        result[chosen] += nominal_stress(mode, data.stretch[chosen], mu, alpha, higher)
+        stretch = data.stretch[chosen]
+        result[chosen] += nominal_stress(mode, stretch, found.mu, found.alpha, found.higher)
     return result
 
 
-def r_squared_of(stress: Reals, difference: Reals) -> float:
+def _r_squared(stress: Reals, difference: Reals) -> float:
     """1 less the part of the variance that is left; 0 where there is no variance."""
     variance = float(((stress - stress.mean()) ** 2).sum())
     return 1 - float((difference**2).sum()) / variance if variance > 0 else 0.0
 
 
-def misfit_of(data: Measurements, difference: Reals) -> Misfit:
+def _misfit(data: Measurements, difference: Reals) -> Misfit:
     worst = int(np.abs(difference).argmax())
     mode = list(MODES)[data.mode[worst]]
     return Misfit(float(abs(difference[worst])), mode, float(data.stretch[worst]))
 
 
-def aicc_of(relative: float, points: int, count: int) -> float:
+def _aicc(relative: float, points: int, count: int) -> float:
     if points <= count + 1:
         return math.inf
     fit = points * math.log(max(relative, BEST_ERROR) ** 2)

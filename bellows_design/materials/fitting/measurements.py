@@ -20,7 +20,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from bellows_design.errors import DesignError, did_you_mean, quoted
+from bellows_design.errors import DesignError
+from bellows_design.validation.quoting import did_you_mean, quoted, quoted_path
 from solver.material.homogeneous import MODES, Reals
 
 LARGEST_FILE = 20_000_000
@@ -50,9 +51,13 @@ _LONGEST_NUMBER = 40
 
 @dataclass(frozen=True, eq=False)
 class Measurements:
-    """Points of homogeneous tests: ``stretch`` (n,), ``stress`` (n,) nominal in MPa, ``mode`` (n,).
+    """Points of homogeneous tests. Made by ``load_measurements``, which checks every bound.
 
-    ``mode`` counts along ``MODES``. Made by ``load_measurements``, which checks every bound.
+    Attributes:
+        name: What messages call them.
+        stretch: Length over initial length. *Shape:* (n,).
+        stress: Nominal stress, MPa. *Shape:* (n,).
+        mode: Number of each point's test along ``MODES``. *Shape:* (n,).
     """
 
     name: str
@@ -86,8 +91,18 @@ class Measurements:
 
 
 def load_measurements(path: str | Path) -> Measurements:
-    """The measurements in the file at ``path``. Raises ``DesignError`` with one sentence."""
-    return parse_measurements(_read(Path(path)), _called(Path(path)), Path(path).name)
+    """The measurements in the file at ``path``.
+
+    Args:
+        path: A table of text, see the head of this module.
+
+    Returns:
+        Stretches without unit and nominal stresses in MPa.
+
+    Raises:
+        DesignError: The file cannot be read, or a value is out of bounds; one sentence.
+    """
+    return parse_measurements(_read(Path(path)), quoted_path(Path(path)), Path(path).name)
 
 
 def parse_measurements(text: str, place: str, name: str = "") -> Measurements:
@@ -110,14 +125,8 @@ _FORM = "mode,stretch,stress_mpa or mode,strain,stress_mpa"
 _Point = tuple[int, float, float, str]
 
 
-def _called(path: Path) -> str:
-    """The path as messages have it: of a long one only the file's name."""
-    whole = quoted(str(path))
-    return quoted(path.name) if "…" in whole else whole
-
-
 def _read(path: Path) -> str:
-    given = _called(path)
+    given = quoted_path(path)
     try:
         if path.is_dir():
             raise DesignError(f"{given} is a folder, not a file of measurements.")
@@ -224,10 +233,10 @@ def _stretch(row: dict[str, str], where: str) -> float:
     value = _number(row[column], f"{where}: {column}", "")
     low, high = SMALLEST_STRETCH - shift, LARGEST_STRETCH - shift
     if not low <= value <= high:
-        told = "; is it given in per cent?" if value > high and column == "strain" else ""
+        hint = "; is it given in per cent?" if value > high and column == "strain" else "."
         raise DesignError(
             f"{where}: {column} is {value:g} but must lie between {low:g} and {high:g} "
-            f"({'a fraction' if shift else 'length over initial length'}, no unit){told or '.'}"
+            f"({'a fraction' if shift else 'length over initial length'}, no unit){hint}"
         )
     return value + shift
 

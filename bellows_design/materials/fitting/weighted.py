@@ -1,4 +1,4 @@
-"""Measurements in the form that least squares wants: relative errors, in handy units."""
+"""Measurements in the form of a least-squares problem: relative errors, scaled stresses."""
 
 from __future__ import annotations
 
@@ -21,7 +21,11 @@ FEW_POINTS = 1000
 
 @dataclass(frozen=True)
 class Weighted:
-    """Measurements in the form the solvers want; ``stress`` in units of ``unit`` MPa."""
+    """The points of a least-squares problem, all (n,); ``stress`` in units of ``unit`` MPa.
+
+    ``mean`` and ``gap`` are those of each point's test, ``logs`` the logarithms of its stretch,
+    ``weight`` what its error is multiplied by.
+    """
 
     mean: Reals
     gap: Reals
@@ -41,7 +45,7 @@ class Weighted:
         return cls(means[data.mode], gaps[data.mode], logs, data.stress / unit, weight, unit)
 
     def thinned(self) -> Weighted:
-        """At most about ``FEW_POINTS`` of the points that tell, evenly from every test."""
+        """At most about ``FEW_POINTS`` of the informative points, evenly from every test."""
         order = np.lexsort((self.logs, self.gap))
         order = order[self.logs[order] != 0]
         chosen = order[:: -(-order.size // FEW_POINTS)]
@@ -62,6 +66,6 @@ class Weighted:
         return self.weight * self.stress
 
     @property
-    def telling(self) -> int:
-        """Points that tell of the constants: all but those at stretch 1."""
+    def informative(self) -> int:
+        """Number of points that depend on the constants: all but those at stretch 1."""
         return int((self.logs != 0).sum())

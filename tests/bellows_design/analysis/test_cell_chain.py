@@ -8,11 +8,12 @@ import pytest
 from numpy.typing import NDArray
 
 from bellows_design.analysis.cell_chain import chain
-from bellows_design.analysis.mesh_plan import first_mesh
+from bellows_design.analysis.mesh_plan import first_plan
 from bellows_design.analysis.models import UNIT_CELL
-from bellows_design.analysis.wall_contact import Contact, contact_of
-from bellows_design.design.design import Design, load_design
+from bellows_design.analysis.wall_contact import WallContact, contact_of
+from bellows_design.design.design import Design
 from bellows_design.design.overrides import with_overrides
+from bellows_design.design.shipped import load_design
 from bellows_design.geometry.actuator import half_body
 from solver import Mesh, Problem, Solution, rotation
 
@@ -27,7 +28,7 @@ def design() -> Design:
 
 @pytest.fixture(scope="module")
 def problem(design: Design) -> Problem:
-    return UNIT_CELL.problem(design, first_mesh(UNIT_CELL.solid(design), design))
+    return UNIT_CELL.problem(design, first_plan(UNIT_CELL.solid(design), design).made())
 
 
 def turned(problem: Problem, tilt: float, shift: float) -> Solution:
@@ -150,7 +151,7 @@ def test_contact_is_seen_in_the_chain(design: Design, problem: Problem) -> None:
     """Bent away from the bubbles their gaps open; bent towards them they meet."""
     gap = design.bellows.bubble_distance
 
-    def contact(tilt: float) -> Contact:
+    def contact(tilt: float) -> WallContact:
         return contact_of(design.bellows, *chain(design.bellows, turned(problem, tilt, 0.0)))
 
     still, opened, closed = contact(0.0), contact(0.1), contact(-0.2)

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from itertools import pairwise
 
 import pytest
 
 from bellows_design import load_design, with_overrides
-from bellows_design.analysis.evaluate import evaluate
-from bellows_design.analysis.evaluation import Evaluation, Reading
+from bellows_design.analysis.evaluate import evaluate, evaluation_of
+from bellows_design.analysis.evaluation import Evaluation
 from bellows_design.analysis.models import FULL, HALF, UNIT_CELL
+from bellows_design.analysis.whole_actuator import Reading
 from bellows_design.design.design import Design
 
 PRESSURES = (0.05, 0.02)
@@ -46,25 +48,26 @@ def own_reading(evaluation: Evaluation) -> Reading:
 
 def test_three_bubbles_are_answered_for_by_one_and_by_their_ends(cell: Evaluation) -> None:
     assert cell.model is UNIT_CELL and cell.converged
-    assert len(cell.solutions) == UNIT_CELL.levels
-    assert cell.ends is not None and cell.ends.converged
-    for coarse, fine in pairwise(cell.solutions):
+    solutions, ends = cell.computation.solutions, cell.computation.ends
+    assert len(solutions) == UNIT_CELL.levels
+    assert ends is not None and ends.converged
+    for coarse, fine in pairwise(solutions):
         assert len(fine.problem.mesh.tets) > 1.3 * len(coarse.problem.mesh.tets)
-    assert all(solution.refused_steps == 0 for solution in cell.solutions)
+    assert all(solution.refused_steps == 0 for solution in solutions)
 
 
 def test_three_bubbles_bend_as_three_cells_but_for_the_ends(cell: Evaluation) -> None:
-    alike = 3 * 2 * cell.finest.rotation
+    finest = cell.computation.finest
+    alike = 3 * 2 * finest.rotation
     assert cell.bending_angle_deg == pytest.approx(alike, rel=0.25)
     assert cell.bending_angle_deg != alike
     more = with_overrides(cheap(), ["number_of_bubbles=4", "length=32.5"])
-    longer = Evaluation(
-        more, cell.model, cell.reason, cell.solid, cell.solutions, cell.seconds, (), cell.ends
-    )  # the same cell and the same ends: one more bubble is two more cells
+    # the same cell and the same ends: one more bubble is two more cells
+    longer = evaluation_of(replace(cell.computation, design=more, pressures=()))
     added = longer.bending_angle_deg - cell.bending_angle_deg
-    assert added == pytest.approx(2 * cell.finest.rotation, rel=1e-12)
+    assert added == pytest.approx(2 * finest.rotation, rel=1e-12)
     grown = longer.cavity_volume_mm3 - cell.cavity_volume_mm3
-    assert grown == pytest.approx(4 * cell.finest.path[-1].volume, rel=1e-9)
+    assert grown == pytest.approx(4 * finest.path[-1].volume, rel=1e-9)
 
 
 @pytest.mark.parametrize("which", ["cell", pytest.param("half", marks=pytest.mark.slow)])
@@ -114,9 +117,7 @@ def test_peak_is_placed_in_the_middle_bubble(cell: Evaluation) -> None:
 
 
 def test_without_pressures_there_is_no_curve(cell: Evaluation) -> None:
-    from dataclasses import replace
-
-    assert replace(cell, pressures=()).curve == ()
+    assert evaluation_of(replace(cell.computation, pressures=())).curve == ()
 
 
 @pytest.mark.parametrize("pressure", [0.0, -0.01, 0.0501, float("nan")])
@@ -155,5 +156,5 @@ def test_the_whole_actuator_agrees_with_its_half() -> None:
     agree(whole, half, "max_von_mises_mpa", "max_von_mises_percent")
     assert whole.bending_angle_deg == pytest.approx(half.bending_angle_deg, rel=0.03)
     assert whole.cavity_volume_mm3 == pytest.approx(half.cavity_volume_mm3, rel=2e-3)
-    sizes = [len(of.solutions[0].problem.mesh.tets) for of in (whole, half)]
+    sizes = [of.meshes[0].size.elements for of in (whole, half)]
     assert sizes[0] == pytest.approx(2 * sizes[1], rel=0.2)

@@ -10,16 +10,20 @@ import numpy as np
 import pytest
 
 from bellows_design import DesignError, load_design, with_overrides
-from bellows_design.analysis.budget import Budget
-from bellows_design.analysis.evaluate import evaluate, refined, write_vtu
-from bellows_design.analysis.evaluation import Evaluation
-from bellows_design.analysis.mesh_plan import first_mesh
-from bellows_design.analysis.models import UNIT_CELL
+from bellows_design.analysis import wall_contact
+from bellows_design.analysis.evaluate import evaluate, evaluation_of, write_vtu
+from bellows_design.analysis.evaluation import Evaluation, LoadedState
+from bellows_design.analysis.mesh_plan import first_plan
+from bellows_design.analysis.mesh_sequence import affordable_plan, next_plan, refined
+from bellows_design.analysis.models import HALF, UNIT_CELL
+from bellows_design.analysis.wall_contact import WallContact
+from bellows_design.budget import Budget
 from bellows_design.design.design import Design
 from bellows_design.study.paper import TABLE_4
 from solver import solve
 from solver.meshing.estimate import expected_memory
 
+NO_CONTACT = WallContact(False, None, False)
 TWO_BUBBLES = ("length=18", "offset=3", "number_of_bubbles=2")
 
 
@@ -34,10 +38,11 @@ def evaluation() -> Evaluation:
 
 
 def test_pressure_bends_towards_the_tendon(evaluation: Evaluation) -> None:
-    tip = evaluation.finest.problem.mesh.surface_nodes("tip")
+    finest = evaluation.computation.finest
+    tip = finest.problem.mesh.surface_nodes("tip")
     assert evaluation.converged
     assert evaluation.bending_angle_deg > 30
-    assert evaluation.finest.displacement[tip, 2].mean() < 0
+    assert finest.displacement[tip, 2].mean() < 0
 
 
 def test_half_the_bubbles_bend_in_proportion(evaluation: Evaluation) -> None:
@@ -47,8 +52,8 @@ def test_half_the_bubbles_bend_in_proportion(evaluation: Evaluation) -> None:
 
 
 def test_a_finer_mesh_agrees_within_the_estimated_error(evaluation: Evaluation) -> None:
-    finer = refined(evaluation)
-    assert len(finer.solutions) == 3
+    finer = evaluation_of(refined(evaluation.computation))
+    assert len(finer.meshes) == len(finer.computation.solutions) == 3
     for value, other, percent in (
         (
             evaluation.bending_angle_deg,
@@ -66,7 +71,7 @@ def test_a_finer_mesh_agrees_within_the_estimated_error(evaluation: Evaluation) 
 
 
 def test_grid_sequencing_saves_the_load_path_on_the_finer_mesh(evaluation: Evaluation) -> None:
-    coarse, fine = evaluation.solutions
+    coarse, fine = evaluation.computation.solutions
     assert fine.load_steps == 1
     assert fine.newton_iterations < coarse.newton_iterations
     assert len(fine.problem.mesh.tets) > len(coarse.problem.mesh.tets)
@@ -83,15 +88,15 @@ def test_cavity_grows_under_pressure_and_bubbles_fan_out(evaluation: Evaluation)
 
 
 def test_more_pressure_bends_further_and_stresses_more(evaluation: Evaluation) -> None:
-    angles = [point.rotation for point in evaluation.solutions[0].path]
-    stresses = [point.max_von_mises for point in evaluation.solutions[0].path]
+    angles = [point.rotation for point in evaluation.computation.solutions[0].path]
+    stresses = [point.max_von_mises for point in evaluation.computation.solutions[0].path]
     assert np.all(np.diff(angles) > 0)
     assert np.all(np.diff(stresses) > 0)
 
 
 def test_peak_stress_lies_on_the_cavity_under_a_chamber(evaluation: Evaluation) -> None:
     """The paper: the highest stress is always in the bottom wall under a chamber."""
-    x, _, z = evaluation.peaks[-1].position
+    x, _, z = evaluation.computation.peaks[-1].position
     bellows = evaluation.design.bellows
     from_middle = min(abs(x - middle) for middle in bellows.bubble_middles)
     assert from_middle <= bellows.chamber_length / 2 + 1e-6
@@ -134,7 +139,7 @@ def test_json_contract_is_kept(evaluation: Evaluation) -> None:
     assert set(content["seconds"]) == {"geometry", "mesh", "solve", "total"}
     assert content["path"][0]["bending_angle_deg"] == 0
     assert content["path"][-1]["pressure_mpa"] == pytest.approx(0.1)
-    assert content["mesh"]["elements"] == len(evaluation.finest.problem.mesh.tets)
+    assert content["mesh"]["elements"] == len(evaluation.computation.finest.problem.mesh.tets)
 
 
 def test_strains_are_those_of_the_finest_mesh_and_warn_outside_of_the_tests(
@@ -145,7 +150,7 @@ def test_strains_are_those_of_the_finest_mesh_and_warn_outside_of_the_tests(
     assert strain.within is None and strain.instability is None and evaluation.warnings == ()
     material = evaluation.design.material.model_copy(update={"valid_strain": (-0.02, 0.02)})
     design = evaluation.design.model_copy(update={"material": material})
-    narrow = replace(evaluation, design=design)
+    narrow = evaluation_of(replace(evaluation.computation, design=design))
     assert narrow.strain.within is False
     assert narrow.to_dict()["warnings"] == list(narrow.warnings) != []
 
@@ -154,7 +159,8 @@ def test_vtu_holds_the_finest_solution(evaluation: Evaluation, tmp_path) -> None
     target = tmp_path / "bent.vtu"
     write_vtu(evaluation, target)
     read = meshio.read(target)
-    assert np.allclose(read.point_data["displacement_mm"], evaluation.finest.displacement)
+    moved = evaluation.computation.finest.displacement
+    assert np.allclose(read.point_data["displacement_mm"], moved)
     assert read.point_data["von_mises_mpa"].max() == pytest.approx(evaluation.max_von_mises_mpa)
     assert list(tmp_path.iterdir()) == [target]
 
@@ -165,10 +171,27 @@ def test_accuracy_refines_until_the_estimate_keeps_it_or_the_memory_is_used_up()
     little = Budget(memory=0.86)
     rough = evaluate(single, accuracy_percent=100, budget=little)
     fine = evaluate(single, accuracy_percent=0.01, budget=little)  # below what is ever claimed
-    assert len(rough.solutions) == 2 < len(fine.solutions)
-    assert expected_memory(len(fine.finest.problem.mesh.tets)) < 1.1 * little.memory * 2**30
-    assert not fine.can_refine and not fine.next_mesh.fits(little)
-    assert fine.next_mesh.elements > len(fine.finest.problem.mesh.tets)
+    assert len(rough.meshes) == 2 < len(fine.meshes)
+    assert expected_memory(fine.mesh.elements) < 1.1 * little.memory * 2**30
+    further = next_plan(fine.computation)
+    assert affordable_plan(fine.computation) is None and not further.fits(little)
+    assert further.elements > fine.mesh.elements
+
+
+def test_refinement_goes_on_while_the_state_asks_for_it_and_looks_for_contact_once(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    surveys = []
+    monkeypatch.setattr(
+        wall_contact, "contact_of", lambda *given: surveys.append(given) or NO_CONTACT
+    )
+    single = short("number_of_bubbles=1", "length=11.5", "load.pressure=0.01")
+    states: list[LoadedState] = []
+    finer = evaluate(single, refine_while=lambda state: states.append(state) or len(states) < 2)
+    assert len(finer.meshes) == HALF.levels + 1 and len(surveys) == 1
+    first, last = states
+    assert first.max_von_mises_mpa == finer.meshes[-2].reading.max_von_mises_mpa
+    assert last == LoadedState(**{name: getattr(finer, name) for name in vars(last)})
 
 
 @pytest.mark.parametrize(
@@ -198,7 +221,7 @@ def test_an_unreachable_pressure_ends_with_the_last_good_state() -> None:
     assert "stopped at" in result.message
     assert 0 < result.pressure_mpa < 0.1
     assert result.error_estimate.bending_angle_percent is None
-    assert np.isfinite(result.finest.displacement).all()
+    assert np.isfinite(result.computation.finest.displacement).all()
 
 
 def test_a_wide_thin_bubble_is_loaded_along_stable_states_only() -> None:
@@ -212,7 +235,7 @@ def test_a_wide_thin_bubble_is_loaded_along_stable_states_only() -> None:
             "outer_fillet=1.44", "length=60", "load.pressure=0.05",
         ],
     )  # fmt: skip
-    coarse = UNIT_CELL.problem(wide, first_mesh(UNIT_CELL.solid(wide), wide))
+    coarse = UNIT_CELL.problem(wide, first_plan(UNIT_CELL.solid(wide), wide).made())
     solution = solve(coarse, wide.load.pressure)
     assert solution.converged, solution.message
     assert solution.negative_pivots in (None, len(coarse.mesh.vertices))
@@ -229,7 +252,7 @@ AGREEMENT_PERCENT = {
     "bubble thickness 1.2": 5,
     "tendon width 6": 8,
     "inner fillet 1": 5,
-    # stands apart in every reading of the geometry: see "Against the paper" in the README
+    # stands apart in every reading of the geometry: see docs/paper.md
     "bubble height 16": 12,
 }
 

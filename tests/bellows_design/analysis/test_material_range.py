@@ -9,8 +9,9 @@ import pytest
 from fakes import FakeEvaluation
 
 from bellows_design.analysis.material_range import strain_of
-from bellows_design.materials.library import Material, load_material
-from bellows_design.reports.tables import evaluation_table
+from bellows_design.materials.library import load_material
+from bellows_design.materials.material import Material
+from bellows_design.reports.evaluation import evaluation_table
 
 SOFTENING = Material(
     model="yeoh",
@@ -82,10 +83,10 @@ def test_the_terminal_shows_strains_and_warnings() -> None:
 
     from rich.console import Console
 
-    content = FakeEvaluation(warnings=("beyond the tests.",)).to_dict()
-    content["strain"] = strain_of(load_material("ninjaflex_linear"), logs_of(1.2)).to_dict()
+    strain = strain_of(load_material("ninjaflex_linear"), logs_of(1.2))
+    evaluation = FakeEvaluation(warnings=("beyond the tests.",), strain=strain)
     console = Console(width=120, record=True, file=io.StringIO())
-    for line in evaluation_table(content):
+    for line in evaluation_table(evaluation):
         console.print(line)
     text = console.export_text()
     assert "-8.71 … +20 % (material tested -10 … +10 %)" in text

@@ -8,10 +8,12 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from bellows_design.analysis.mesh_plan import finer_mesh, finer_plan, first_mesh, first_plan
-from bellows_design.analysis.models import FULL, HALF, UNIT_CELL, Model
-from bellows_design.design.bellows_parameters import BellowsParameters, Indent
-from bellows_design.design.design import Design, load_design
+from bellows_design.analysis.mesh_plan import finer_plan, first_plan
+from bellows_design.analysis.models import FULL, HALF, UNIT_CELL, AnalysisModel
+from bellows_design.design.bellows_parameters import BellowsParameters
+from bellows_design.design.design import Design
+from bellows_design.design.indent import Indent
+from bellows_design.design.shipped import load_design
 from bellows_design.geometry.named_solids import NamedSolid
 from bellows_design.study.paper import TABLE_4, Result
 from solver import Mesh, SolverOptions, solve
@@ -31,16 +33,16 @@ BOTH = pytest.mark.parametrize("model", [UNIT_CELL, HALF], ids=lambda model: mod
 
 
 @cache
-def solid_of(model: Model) -> NamedSolid:
+def solid_of(model: AnalysisModel) -> NamedSolid:
     return model.solid(DESIGN)
 
 
 @cache
-def meshes(model: Model) -> tuple[Mesh, Mesh]:
+def meshes(model: AnalysisModel) -> tuple[Mesh, Mesh]:
     """The first mesh and the next, made from its solution under a tenth of the pressure."""
-    coarse = first_mesh(solid_of(model), DESIGN)
+    coarse = first_plan(solid_of(model), DESIGN).made()
     solution = solve(model.problem(DESIGN, coarse), 0.01, SolverOptions(tolerance=1e-3))
-    return coarse, finer_mesh(solid_of(model), DESIGN, solution, model.refinement)
+    return coarse, finer_plan(solid_of(model), DESIGN, solution, model.refinement).made()
 
 
 def area_vectors(mesh: Mesh, *names: str) -> tuple[np.ndarray, np.ndarray]:
@@ -58,7 +60,7 @@ def volume(mesh: Mesh, *names: str) -> float:
 
 
 @BOTH
-def test_the_mesh_has_the_surfaces_of_the_body(model: Model) -> None:
+def test_the_mesh_has_the_surfaces_of_the_body(model: AnalysisModel) -> None:
     for mesh in meshes(model):
         assert set(mesh.surfaces) == {"cavity", "outside", "symmetry", *ENDS[model.name]}
         _, normals = area_vectors(mesh, *mesh.surfaces)
@@ -70,7 +72,7 @@ def test_the_mesh_has_the_surfaces_of_the_body(model: Model) -> None:
 
 
 @BOTH
-def test_the_mesh_stands_on_the_planes_it_is_held_at(model: Model) -> None:
+def test_the_mesh_stands_on_the_planes_it_is_held_at(model: AnalysisModel) -> None:
     for mesh in meshes(model):
         for name, (axis, place) in PLANES[model.name].items():
             assert np.abs(mesh.nodes[mesh.surface_nodes(name), axis] - place).max() < 1e-9
@@ -78,7 +80,7 @@ def test_the_mesh_stands_on_the_planes_it_is_held_at(model: Model) -> None:
 
 
 @BOTH
-def test_the_next_mesh_is_finer_and_nearer_to_the_solid(model: Model) -> None:
+def test_the_next_mesh_is_finer_and_nearer_to_the_solid(model: AnalysisModel) -> None:
     exact = solid_of(model).solid.Volume()
     coarse, fine = meshes(model)
     assert 1.2 * len(coarse.tets) < len(fine.tets) < 2 * model.growth * len(coarse.tets)
@@ -88,7 +90,7 @@ def test_the_next_mesh_is_finer_and_nearer_to_the_solid(model: Model) -> None:
 
 
 @BOTH
-def test_the_sizes_of_both_meshes_are_known_before(model: Model) -> None:
+def test_the_sizes_of_both_meshes_are_known_before(model: AnalysisModel) -> None:
     coarse, fine = meshes(model)
     solution = solve(model.problem(DESIGN, coarse), 0.01, SolverOptions(tolerance=1e-3))
     plans = (
@@ -100,7 +102,7 @@ def test_the_sizes_of_both_meshes_are_known_before(model: Model) -> None:
 
 
 @BOTH
-def test_no_mesh_has_a_folded_element(model: Model) -> None:
+def test_no_mesh_has_a_folded_element(model: AnalysisModel) -> None:
     for mesh in meshes(model):
         assert jacobian_ratios(mesh.nodes, mesh.tets).min() >= 0.1
 
@@ -120,7 +122,7 @@ def test_the_cavity_encloses_the_air_of_the_bellows() -> None:
     ("model", "symmetry"), [(HALF, {"symmetry": 1}), (FULL, {})], ids=["half", "full"]
 )
 def test_root_is_clamped_and_the_whole_cavity_loaded(
-    model: Model, symmetry: dict[str, int]
+    model: AnalysisModel, symmetry: dict[str, int]
 ) -> None:
     problem = model.problem(DESIGN, meshes(HALF)[0])
     assert problem.supports.clamped == ("root",)
@@ -153,7 +155,7 @@ def test_stations_ascend_from_root_to_tip_through_every_bubble(result: Result) -
 
 
 @BOTH
-def test_equal_designs_give_equal_meshes(model: Model) -> None:
-    again = first_mesh(model.solid(DESIGN), DESIGN)
+def test_equal_designs_give_equal_meshes(model: AnalysisModel) -> None:
+    again = first_plan(model.solid(DESIGN), DESIGN).made()
     assert np.array_equal(again.nodes, meshes(model)[0].nodes)
     assert np.array_equal(again.tets, meshes(model)[0].tets)

@@ -10,14 +10,15 @@ from bellows_design.analysis.models import (
     LEAST_LENGTH,
     MODELS,
     UNIT_CELL,
-    Model,
+    AnalysisModel,
     choose,
     sharp_edge_radius,
     shortened,
 )
 from bellows_design.design.bellows_parameters import BellowsParameters
-from bellows_design.design.design import Design, load_design, shipped_designs
+from bellows_design.design.design import Design
 from bellows_design.design.overrides import with_overrides
+from bellows_design.design.shipped import load_design, shipped_designs
 from bellows_design.study.paper import TABLE_4
 
 
@@ -29,7 +30,7 @@ def of_bubbles(count: int) -> Design:
     ("count", "model"), [(1, HALF), (2, HALF), (3, UNIT_CELL), (4, UNIT_CELL), (8, UNIT_CELL)]
 )
 def test_a_cell_answers_from_three_bubbles_on_and_half_an_actuator_below(
-    count: int, model: Model
+    count: int, model: AnalysisModel
 ) -> None:
     chosen, reason = choose(of_bubbles(count))
     assert chosen is model
@@ -39,7 +40,7 @@ def test_a_cell_answers_from_three_bubbles_on_and_half_an_actuator_below(
 
 @pytest.mark.parametrize("count", [1, 8])
 @pytest.mark.parametrize(("name", "model"), MODELS.items())
-def test_a_model_that_is_asked_for_is_taken(count: int, name: str, model: Model) -> None:
+def test_a_model_that_is_asked_for_is_taken(count: int, name: str, model: AnalysisModel) -> None:
     assert choose(of_bubbles(count), name) == (model, "as asked for")
     assert model.name == name
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from bellows_design.analysis.cell_chain import chain
 from bellows_design.analysis.evaluate import evaluate
-from bellows_design.analysis.mesh_plan import first_mesh
+from bellows_design.analysis.mesh_plan import first_plan
 from bellows_design.analysis.models import FREE_CELL, HALF, UNIT_CELL, shortened
 from bellows_design.analysis.wall_contact import (
     FREE_ENDS,
@@ -18,13 +18,14 @@ from bellows_design.analysis.wall_contact import (
     ITSELF,
     NEIGHBOURS,
     UNMODELLED,
-    Contact,
+    WallContact,
     contact_in_cell,
     contact_of,
 )
 from bellows_design.design.bellows_parameters import BellowsParameters
-from bellows_design.design.design import Design, load_design
+from bellows_design.design.design import Design
 from bellows_design.design.overrides import with_overrides
+from bellows_design.design.shipped import load_design
 from solver import Problem, Solution, SolverOptions, solve
 
 Array = NDArray[np.float64]
@@ -37,10 +38,10 @@ GAP = BELLOWS.bubble_distance
 @pytest.fixture(scope="module")
 def problem() -> Problem:
     design = Design(name="short", bellows=BELLOWS)
-    return HALF.problem(design, first_mesh(HALF.solid(design), design))
+    return HALF.problem(design, first_plan(HALF.solid(design), design).made())
 
 
-def contact(problem: Problem, displacement: Array) -> Contact:
+def contact(problem: Problem, displacement: Array) -> WallContact:
     return contact_of(BELLOWS, problem.mesh, displacement)
 
 
@@ -162,7 +163,7 @@ def test_an_undeformed_cell_reports_the_gaps_it_was_drawn_with() -> None:
 
 def solved(design: Design, pressure: float, contacts: bool = True) -> Solution:
     """The unit cell on its coarsest mesh, with its walls' contact or without."""
-    problem = UNIT_CELL.problem(design, first_mesh(UNIT_CELL.solid(design), design))
+    problem = UNIT_CELL.problem(design, first_plan(UNIT_CELL.solid(design), design).made())
     kept = problem if contacts else replace(problem, contacts=())
     return solve(kept, pressure, SolverOptions(tolerance=1e-4))
 
@@ -199,7 +200,7 @@ def test_bubbles_that_bulge_into_each_other_push_the_actuator_further_round() ->
 @pytest.mark.slow
 def test_a_half_of_crowded_bubbles_says_that_it_does_not_hold() -> None:
     design = with_overrides(load_design("prototype_1"), [*CROWDED, "number_of_bubbles=2"])
-    half = HALF.problem(design, first_mesh(HALF.solid(design), design))
+    half = HALF.problem(design, first_plan(HALF.solid(design), design).made())
     found = contact_of(design.bellows, half.mesh, solve(half, 0.03).displacement)
     assert found.detected and not found.modelled and found.note == UNMODELLED
 
@@ -241,7 +242,7 @@ def test_before_walls_touch_two_free_half_bubbles_turn_like_the_short_actuator()
     """What stands for the ends in a vacuum, where a short actuator would run through itself."""
     design = load_design("prototype_1")
     short = shortened(design)
-    ends = HALF.problem(short, first_mesh(HALF.solid(short), short))
-    free = FREE_CELL.problem(design, first_mesh(UNIT_CELL.solid(design), design))
+    ends = HALF.problem(short, first_plan(HALF.solid(short), short).made())
+    free = FREE_CELL.problem(design, first_plan(UNIT_CELL.solid(design), design).made())
     of_short, of_free = (solve(each, -0.01).path[-1].rotation for each in (ends, free))
     assert 2 * of_free == pytest.approx(of_short, rel=0.12)

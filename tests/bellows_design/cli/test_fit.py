@@ -13,11 +13,13 @@ import pytest
 
 from bellows_design.cli import fit as fit_command
 from bellows_design.cli.answer import Answer
-from bellows_design.cli.fit import fit, write_material
-from bellows_design.design.design import Design, load_design
+from bellows_design.cli.fit import fit
+from bellows_design.design.design import Design
+from bellows_design.design.shipped import load_design
 from bellows_design.errors import DesignError
-from bellows_design.export.approved import json_text
-from bellows_design.materials.library import Material
+from bellows_design.files.json_files import json_text
+from bellows_design.materials.library import write_material
+from bellows_design.materials.material import Material
 from solver.material.homogeneous import MODES, nominal_stress
 
 CONSTANTS = (3.2778, 0.19825), (-0.0054, 3.05)
@@ -153,7 +155,7 @@ def test_the_plot_is_a_picture(data: Path, tmp_path: Path) -> None:
 def test_without_matplotlib_a_plot_is_refused_in_one_sentence(
     data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("bellows_design.reports.benchmark_plot.find_spec", lambda _: None)
+    monkeypatch.setattr("bellows_design.reports.plots.find_spec", lambda _: None)
     assert "pictures" in refusal(data, plot=tmp_path / "fit.png")
     assert fit_command.fit(data, "neo-hooke").status == 0
 

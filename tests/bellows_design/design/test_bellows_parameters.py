@@ -7,15 +7,11 @@ from typing import Any
 import pytest
 from pydantic import ValidationError
 
-from bellows_design.design.bellows_parameters import (
-    FULL_ROUND_SNAP,
-    BellowsParameters,
-    Indent,
-    Port,
-    corner_thickness,
-    snapped_radius,
-)
-from bellows_design.design.design import load_design
+from bellows_design.design.bellows_parameters import BellowsParameters, corner_thickness
+from bellows_design.design.indent import Indent
+from bellows_design.design.lengths import FULL_ROUND_SNAP, snapped_radius
+from bellows_design.design.port import Port
+from bellows_design.design.shipped import load_design
 from bellows_design.study.paper import TABLE_4, Result
 
 PROTOTYPE_1 = load_design("prototype_1").bellows

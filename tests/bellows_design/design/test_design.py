@@ -12,9 +12,16 @@ from hypothesis import strategies as st
 from pydantic import ValidationError
 
 from bellows_design.design.bellows_parameters import BellowsParameters
-from bellows_design.design.design import Design, load_design, shipped_designs
+from bellows_design.design.conditions import Load
+from bellows_design.design.design import Design
+from bellows_design.design.indent import Indent
+from bellows_design.design.overrides import with_overrides
+from bellows_design.design.port import Port
+from bellows_design.design.shipped import load_design, shipped_designs
 from bellows_design.errors import DesignError
-from bellows_design.materials.library import Material, load_material
+from bellows_design.materials.library import load_material
+from bellows_design.materials.material import Material
+from bellows_design.validation.parameters import Parameters
 
 SHIPPED = shipped_designs()
 
@@ -135,6 +142,33 @@ def test_a_pressure_in_another_unit_is_recognised(pressure: str, words: str) -> 
     assert sentence.startswith("load.pressure is ") and words in sentence
 
 
+UNITS = {Load: "MPa", BellowsParameters: "mm", Indent: "mm", Port: "mm"}
+"""Table -> the unit of all its numbers that are not counted."""
+
+
+@pytest.mark.parametrize("table", UNITS, ids=lambda table: table.__name__)
+def test_every_number_of_a_table_states_its_unit(table: type[Parameters]) -> None:
+    for name, field in table.model_fields.items():
+        if field.annotation is float:
+            extra = field.json_schema_extra
+            assert isinstance(extra, dict) and extra["unit"] == UNITS[table], name
+
+
+@pytest.mark.parametrize(
+    ("key", "words"),
+    [
+        ("port.wall=99", "port.wall is 99 mm but must be at most 10 mm."),
+        ("port.wall=1e3", "port.wall is 1000 mm but must be at most 10 mm; 1000 µm would be 1 mm."),
+        ("port.depth=true", "port.depth is True but must be a number, in mm."),
+        ("indent.fillet=nan", "indent.fillet is nan but must be a finite number, in mm."),
+    ],
+)
+def test_a_wrong_length_of_any_table_is_refused_in_mm(key: str, words: str) -> None:
+    with pytest.raises(DesignError) as caught:
+        with_overrides(load_design("prototype_2_indent"), [key])
+    assert str(caught.value) == words
+
+
 def test_an_unknown_key_names_its_likeness() -> None:
     assert "did you mean bellows.bubble_thickness" in refusal(written(bubble_tickness=1.2))
 
@@ -219,7 +253,7 @@ def test_the_hencky_limit_alpha_zero_is_a_material() -> None:
         ("../prototype_1", "there is no file"),
         ("missing.toml", "there is no file"),
         ("a\0b.toml", "a?b.toml"),
-        ("x" * 5000 + ".toml", "cannot read"),
+        ("x" * 5000 + ".toml", "cannot be read"),
         (".", "is a folder"),
         ("/dev/null", "there is no file"),
     ],

@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bellows_design.design.design import load_design
 from bellows_design.design.overrides import known_keys, renamed_if_changed, with_overrides
+from bellows_design.design.shipped import load_design
 from bellows_design.errors import DesignError
 
 PROTOTYPE = load_design("prototype_1")

@@ -17,7 +17,7 @@ from bellows_design.approval import Reason, Verdict
 from bellows_design.errors import DesignError
 from bellows_design.export import approved as export
 from bellows_design.export import formats
-from bellows_design.export.approved import export_approved, json_text, withdraw
+from bellows_design.export.approved import export_approved, withdraw
 from bellows_design.export.formats import WRITERS, Part, write_part
 from bellows_design.files import atomic
 from bellows_design.geometry.tessellation import ClosedMesh, TessellationError, tessellate
@@ -222,12 +222,6 @@ def test_a_folder_without_our_manifest_is_not_withdrawn(tmp_path: Path) -> None:
     (tmp_path / "cube" / "thesis.doc").write_text("mine")
     assert withdraw("cube", tmp_path) is None
     assert (tmp_path / "cube" / "thesis.doc").exists()
-
-
-def test_json_has_no_nan_and_knows_numpy() -> None:
-    content = {"a": float("nan"), "b": np.float64(2.5), "c": (1, None, True), "d": Path("x")}
-    expected = {"a": None, "b": 2.5, "c": [1, None, True], "d": "x"}
-    assert json.loads(json_text(content)) == expected
 
 
 def test_replacing_needs_the_folder(tmp_path: Path) -> None:

@@ -16,8 +16,11 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from pydantic import ValidationError
 
-from bellows_design.design.bellows_parameters import BellowsParameters, Indent, Port
-from bellows_design.design.design import Design, load_design, shipped_designs
+from bellows_design.design.bellows_parameters import BellowsParameters
+from bellows_design.design.design import Design
+from bellows_design.design.indent import Indent
+from bellows_design.design.port import Port
+from bellows_design.design.shipped import load_design, shipped_designs
 from bellows_design.geometry.actuator import full_body, half_body, printed_part
 from bellows_design.geometry.named_solids import NamedSolid
 from bellows_design.geometry.tessellation import tessellate

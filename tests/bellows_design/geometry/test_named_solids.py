@@ -10,7 +10,6 @@ import pytest
 from bellows_design.geometry.named_solids import (
     GeometryError,
     box,
-    common,
     cut,
     fused,
     named,
@@ -109,15 +108,6 @@ def test_a_joint_disappears_and_shared_faces_keep_the_first_name() -> None:
     assert joined.solid.Volume() == pytest.approx(20)
     assert joined.area("left") == pytest.approx(4 + 4 * 2 * 3)
     assert joined.area("right") == pytest.approx(4 + 4 * 2 * 2)
-
-
-def test_what_two_solids_share_has_the_names_of_both() -> None:
-    shared = common(
-        named(box((0, 0, 0), (2, 2, 2)), "one"), named(box((1, -1, -1), (4, 3, 3)), "two")
-    )
-    assert shared.solid.Volume() == pytest.approx(4)
-    assert shared.area("two") == pytest.approx(4)
-    assert shared.area("one") == pytest.approx(4 + 4 * 2)
 
 
 def test_renaming_sees_every_face() -> None:

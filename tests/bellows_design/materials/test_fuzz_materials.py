@@ -15,10 +15,10 @@ from refusals import refused_in_sentences
 from bellows_design.design.design import Design
 from bellows_design.materials.fitting.fit_result import Choice
 from bellows_design.materials.fitting.measurements import load_measurements, parse_measurements
-from bellows_design.materials.fitting.ogden import fit
+from bellows_design.materials.fitting.selection import fit
 
 DESIGNS = Path(__file__).parents[3] / "bellows_design/design/designs"
-MATERIALS = DESIGNS.parent / "materials"
+MATERIALS = Path(__file__).parents[3] / "bellows_design/materials"
 BASE = (DESIGNS / "prototype_2_indent.toml").read_bytes()
 CSV = b"mode,stretch,stress_mpa\n" + b"".join(
     b"uniaxial,%g,%g\n" % (1 + 0.1 * i, 0.2 * i) for i in range(1, 9)
@@ -46,7 +46,9 @@ def test_a_damaged_material_is_taken_or_refused_in_sentences() -> None:
     """Material files of the library as a table of a design, damaged."""
     table = BASE.decode().replace('material = "ninjaflex"\n', "").encode() + b"\n[material]\n"
     chance = random.Random("materials")
-    for path in sorted(MATERIALS.glob("*.toml")) * 12:
+    paths = sorted(MATERIALS.glob("*.toml")) * 12
+    assert paths
+    for path in paths:
         content = table + mutated(path.read_bytes(), chance)
         refused_in_sentences(lambda text=content: Design.from_toml(text.decode("utf-8", "replace")))  # type: ignore[misc]
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from bellows_design.design.design import load_design
+from bellows_design.design.shipped import load_design
 from bellows_design.study.paper import ERRATA, FILAMENT, PARAMETERS, REQUIREMENTS, TABLE_4, Result
 
 REFERENCE = TABLE_4[0]

@@ -9,14 +9,21 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from printers import Opening, RuleResult
+from printers import Opening, PrinterProfile, RuleResult, load_profile
 from printers.measure.leaks import find_leaks
-from printers.measure.surface import merged_surface
-from printers.rules.airtightness import check_airtightness, seal
+from printers.measure.plugging import Sealing
+from printers.rules.airtightness import check_airtightness
+
+ANY_PRINTER: PrinterProfile = load_profile("prusa_i3")
 
 
 def judged(solids: SimpleNamespace, solid: object, *openings: Opening) -> RuleResult:
-    return check_airtightness(seal(merged_surface(*solids.arrays(solid)), openings))
+    (result,) = check_airtightness(solids.part(solid, ANY_PRINTER, openings=openings))
+    return result
+
+
+def sealing(solids: SimpleNamespace, solid: object, *openings: Opening) -> Sealing:
+    return solids.part(solid, ANY_PRINTER, openings=openings).sealing
 
 
 def test_a_box_with_a_port_has_one_cavity_of_its_inner_volume(solids: SimpleNamespace) -> None:
@@ -131,7 +138,7 @@ def test_a_hole_in_the_roof_is_found_where_it_is(
     leaking = solids.hollow_box() - solids.bore(radius, (x, y, 8), 5, axis=2)
     result = judged(solids, leaking, solids.port_of())
     assert (result.verdict, result.measured) == ("fail", "0 closed cavities, 2 openings")
-    closed = seal(merged_surface(*solids.arrays(leaking)), (solids.port_of(),)).closed
+    closed = sealing(solids, leaking, solids.port_of()).closed
     (leak,) = find_leaks(closed.surface, (solids.port_of(),))
     assert np.allclose(leak.centre[:2], (x, y), atol=0.02)
     assert 9.2 - 1e-6 <= leak.centre[2] <= 10.4 + 1e-6

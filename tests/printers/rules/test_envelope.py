@@ -7,12 +7,17 @@ from types import SimpleNamespace
 import pytest
 
 from printers import PrinterProfile
-from printers.measure.surface import Surface, merged_surface
+from printers.measure.part import MeasuredPart
 from printers.rules.envelope import check_bed_contact, check_build_volume, check_cross_section
 
 
-def boxed(solids: SimpleNamespace, size: tuple[float, float, float]) -> Surface:
-    return merged_surface(*solids.arrays(solids.block(size, (-3, -4, 2))))
+def boxed(
+    solids: SimpleNamespace,
+    profile: PrinterProfile,
+    size: tuple[float, float, float],
+    **declared: object,
+) -> MeasuredPart:
+    return solids.part(solids.block(size, (-3, -4, 2)), profile, **declared)
 
 
 @pytest.mark.parametrize(
@@ -30,7 +35,8 @@ def test_a_part_may_be_turned_on_the_bed_but_not_tipped(
     size: tuple[float, float, float],
     verdict: str,
 ) -> None:
-    assert check_build_volume(boxed(solids, size), prusa).verdict == verdict
+    (result,) = check_build_volume(boxed(solids, prusa, size))
+    assert result.verdict == verdict
 
 
 @pytest.mark.parametrize(
@@ -38,9 +44,12 @@ def test_a_part_may_be_turned_on_the_bed_but_not_tipped(
     [((50, 20, 20), "pass"), ((50, 20.5, 20), "fail"), ((50, 20, 21), "fail")],
 )
 def test_the_cross_section_leaves_out_the_length(
-    solids: SimpleNamespace, size: tuple[float, float, float], verdict: str
+    solids: SimpleNamespace,
+    prusa: PrinterProfile,
+    size: tuple[float, float, float],
+    verdict: str,
 ) -> None:
-    result = check_cross_section(boxed(solids, size), (20, 20))
+    (result,) = check_cross_section(boxed(solids, prusa, size, cross_section_limit=(20, 20)))
     assert result.verdict == verdict
     if verdict == "fail":
         excess = max(size[1] - 20, size[2] - 20)
@@ -50,13 +59,12 @@ def test_the_cross_section_leaves_out_the_length(
 def test_a_box_stands_on_all_of_its_footprint_wherever_it_is(
     solids: SimpleNamespace, prusa: PrinterProfile
 ) -> None:
-    result = check_bed_contact(boxed(solids, (10, 12, 5)), prusa)
+    (result,) = check_bed_contact(boxed(solids, prusa, (10, 12, 5)))
     assert (result.verdict, result.measured) == ("pass", 120.0)
 
 
 def test_a_ball_does_not_stand(solids: SimpleNamespace, prusa: PrinterProfile) -> None:
-    ball = merged_surface(*solids.arrays(solids.Manifold.sphere(10.0, 64)))
-    result = check_bed_contact(ball, prusa)
+    (result,) = check_bed_contact(solids.part(solids.Manifold.sphere(10.0, 64), prusa))
     assert (result.verdict, result.where) == ("fail", "nowhere")
 
 
@@ -68,6 +76,6 @@ def test_a_box_on_four_thin_legs_stands_only_if_the_legs_are_wide_enough(
         for x in (0.0, 20 - leg):
             for y in (0.0, 20 - leg):
                 table = table + solids.block((leg, leg, 6), (x, y, 0))
-        result = check_bed_contact(merged_surface(*solids.arrays(table)), prusa)
+        (result,) = check_bed_contact(solids.part(table, prusa))
         assert result.measured == pytest.approx(4 * leg**2, abs=0.1)
         assert result.verdict == verdict

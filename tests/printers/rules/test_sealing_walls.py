@@ -10,7 +10,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from printers import PrinterProfile, RuleResult, check_printability
-from printers.rules.sealing_walls import closest_on_triangles
 
 
 def thinnest(
@@ -95,16 +94,3 @@ def test_without_a_cavity_the_parallel_walls_are_judged(
         lines = thinnest(solids, leaking, prusa, openings=(solids.port_of(wall=wall),))
         assert lines["minimum_lines"].verdict == verdict
         assert "no cavity closes" in lines["minimum_lines"].message
-
-
-@settings(max_examples=50, deadline=None)
-@given(st.integers(0, 2**32 - 1))
-def test_no_point_of_a_triangle_is_nearer_than_the_closest(seed: int) -> None:
-    random = np.random.default_rng(seed)
-    corners, point = random.normal(size=(1, 3, 3)), 2 * random.normal(size=(1, 3))
-    closest = closest_on_triangles(corners, point)[0]
-    weights = random.dirichlet([0.5] * 3, size=4000)
-    others = weights @ corners[0]
-    distance = np.linalg.norm(closest - point[0])
-    assert distance <= np.linalg.norm(others - point[0], axis=1).min() + 1e-12
-    assert np.linalg.norm(others - closest, axis=1).min() < 0.3

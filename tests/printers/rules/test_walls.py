@@ -11,8 +11,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from printers import DeclaredWall, PrintabilityReport, PrinterProfile, check_printability
-from printers.measure.surface import merged_surface
-from printers.rules.walls import group_by_thickness
 
 
 def with_lines(profile: PrinterProfile, line_width: float) -> PrinterProfile:
@@ -168,25 +166,3 @@ def test_refining_and_renumbering_the_mesh_changes_no_wall(
     model = type(solids.model(box))(vertices[order], shuffled)
     assert measured_walls(coarse) == measured_walls(fine)
     assert measured_walls(coarse) == measured_walls(check_printability(model, prusa))
-
-
-def test_specks_are_no_group_and_close_values_are_one() -> None:
-    values = np.array([1.2] * 30 + [1.21] * 30 + [1.4] * 2 + [1.6] * 30)
-    groups = [values[flags].mean() for flags in group_by_thickness(values, area=0.1)]
-    assert groups == [pytest.approx(1.205), pytest.approx(1.6)]
-
-
-def test_sampling_by_area_does_not_see_the_triangles(solids: SimpleNamespace) -> None:
-    from printers.measure.surface import sample
-
-    box = merged_surface(*solids.arrays(solids.block((10, 10, 10), (0, 0, 0))))
-    odd = merged_surface(
-        *solids.arrays(solids.block((10, 10, 10), (0, 0, 0)).refine_to_length(1.0))
-    )
-    for surface in (box, odd):
-        points = sample(surface, 4.0, (100, 10_000))
-        assert len(points.points) == 2400
-        on_top = points.points[points.points[:, 2] > 10 - 1e-9]
-        counts = np.histogram2d(on_top[:, 0], on_top[:, 1], bins=4, range=[[0, 10]] * 2)[0]
-        assert counts.sum() == pytest.approx(400, rel=0.02)
-        assert np.abs(counts - 25).max() <= 7

@@ -67,5 +67,5 @@ def test_a_field_counts() -> None:
     [(18_425, 747), (48_774, 954), (77_940, 1038), (192_623, 1777), (282_014, 2351)],
 )
 def test_the_law_of_memory_is_the_measured_one(unknowns: int, measured: float) -> None:
-    """MiB of the README's table: unit cell and half of Prototype 1."""
+    """MiB of the table in docs/accuracy.md: unit cell and half of Prototype 1."""
     assert expected_memory(unknowns / 6.2) / 2**20 == pytest.approx(measured, rel=0.06)

@@ -9,8 +9,10 @@ from typing import Any
 
 import pytest
 
-from bellows_design.design.bellows_parameters import BellowsParameters, Indent
-from bellows_design.design.design import Design, load_design, shipped_designs
+from bellows_design.design.bellows_parameters import BellowsParameters
+from bellows_design.design.design import Design
+from bellows_design.design.indent import Indent
+from bellows_design.design.shipped import load_design, shipped_designs
 from bellows_design.geometry.actuator import full_body, unit_cell
 from bellows_design.geometry.named_solids import NamedSolid
 from bellows_design.study.paper import TABLE_4

@@ -10,14 +10,15 @@ from typing import Any
 import pytest
 from fakes import FakeEvaluation
 
-from bellows_design.analysis import budget
-from bellows_design.analysis import mesh_plan as analysis
-from bellows_design.analysis.budget import DEFAULT, LEAST_MEMORY, Budget, default_memory
+from bellows_design import budget
+from bellows_design.analysis import mesh_plan
 from bellows_design.analysis.evaluate import evaluate
 from bellows_design.analysis.mesh_plan import first_plan
-from bellows_design.analysis.models import FULL, HALF, UNIT_CELL, Model
-from bellows_design.design.design import Design, load_design, shipped_designs
+from bellows_design.analysis.models import FULL, HALF, UNIT_CELL, AnalysisModel
+from bellows_design.budget import DEFAULT, LEAST_MEMORY, Budget, default_memory
+from bellows_design.design.design import Design
 from bellows_design.design.overrides import with_overrides
+from bellows_design.design.shipped import load_design, shipped_designs
 from bellows_design.errors import DesignError
 
 HONEST = 1.5
@@ -46,7 +47,7 @@ def extreme(name: str) -> Design:
     return with_overrides(load_design("prototype_1"), [*EXTREMES[name], "length=90"])
 
 
-def estimate_over_actual(design: Design, model: Model) -> float:
+def estimate_over_actual(design: Design, model: AnalysisModel) -> float:
     plan = first_plan(model.solid(design), design)
     return plan.elements / len(plan.made(Budget(memory=100)).tets)
 
@@ -71,7 +72,7 @@ def test_the_estimate_of_an_extreme_cell_is_honest(name: str) -> None:
 def test_a_mesh_too_large_for_the_memory_is_refused_before_it_is_made(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(analysis, "mesh_solid", None)
+    monkeypatch.setattr(mesh_plan, "mesh_solid", None)
     thin = with_overrides(load_design("prototype_1"), THIN_AND_WIDE)
     with pytest.raises(DesignError) as error:
         evaluate(thin, FULL.name, budget=Budget(memory=2.0))
@@ -111,18 +112,8 @@ def test_limits_that_are_none_are_refused(fields: dict[str, float], sentence: st
 def test_the_usual_memory_is_a_share_of_the_machines(
     machine: float | None, usual: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(budget, "machine_memory", lambda: machine)
+    monkeypatch.setattr(budget, "memory_gib", lambda: machine)
     assert default_memory() == usual == Budget().memory
-
-
-def test_a_container_has_no_more_than_it_is_given(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    files = [tmp_path / name for name in ("unlimited", "limited", "missing")]
-    files[0].write_text("max\n")
-    files[1].write_text("536870912\n")
-    monkeypatch.setattr(budget, "CONTROL_GROUPS", files)
-    assert budget.machine_memory.__wrapped__() == 0.5
 
 
 @pytest.mark.parametrize("command", ["evaluate", "run"])

@@ -1,0 +1,61 @@
+"""How far off the numbers of a computation may be, from the difference of its last two meshes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from bellows_design.analysis.computation import Computation
+from bellows_design.analysis.whole_actuator import added_by_ends, reading
+
+LEAST_ANGLE_ERROR, LEAST_STRESS_ERROR = 0.005, 0.02
+"""Fractions of angle and stress that no estimate falls below: two meshes can agree by chance, and
+the bubbles next to the ends are stressed a little more (4 % on Prototype 1)."""
+
+ENDS_ERROR = 0.15
+"""Fraction of what the ends add that is uncertain: a short actuator of two bubbles instead of one
+moves it by that much."""
+
+TWO_MESHES = 2.0
+"""Factor on the angle's error as long as there are only two meshes: the first is very coarse."""
+
+
+@dataclass(frozen=True)
+class ErrorEstimate:
+    """Estimated errors in percent of the values; None where there was but one mesh."""
+
+    bending_angle_percent: float | None = None
+    max_von_mises_percent: float | None = None
+
+
+def error_estimate(computation: Computation) -> ErrorEstimate:
+    """From the difference between the last two meshes, in percent of the finest.
+
+    Nothing is estimated from a single mesh or without convergence. Calibrated on the designs of the
+    paper.
+    """
+    if len(computation.solved) < 2 or not computation.converged:
+        return ErrorEstimate()
+    return ErrorEstimate(_angle_error(computation), _stress_error(computation))
+
+
+def _angle_error(computation: Computation) -> float | None:
+    """That difference is about the error of the coarser mesh, so a careful guess at the finer's."""
+    coarse, fine = (
+        reading(computation, solution.path[-1]).bending_angle_deg
+        for solution in computation.solutions[-2:]
+    )
+    ends, _ = added_by_ends(computation, computation.finest.path[-1])
+    careful = TWO_MESHES if len(computation.solved) == 2 else 1.0
+    error = careful * max(abs(fine - coarse), LEAST_ANGLE_ERROR * abs(fine))
+    return _percent(error + ENDS_ERROR * abs(ends), fine)
+
+
+def _stress_error(computation: Computation) -> float | None:
+    """Half of the difference, or how much the elements around the peak disagree if that is more."""
+    coarse, fine = computation.peaks[-2:]
+    difference = abs(coarse.value - fine.value) / 2
+    return _percent(max(difference, fine.scatter, LEAST_STRESS_ERROR * fine.value), fine.value)
+
+
+def _percent(error: float, value: float) -> float | None:
+    return 100 * abs(error / value) if value else None

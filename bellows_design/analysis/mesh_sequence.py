@@ -1,0 +1,200 @@
+"""The meshes of a computation, one after the other.
+
+The load is walked on a coarse mesh; a finer mesh, refined where the solution is least accurate,
+starts from it at full load and needs a handful of iterations.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from bellows_design.analysis.computation import Computation, Seconds, SolvedMesh
+from bellows_design.analysis.models import FREE_CELL, HALF, UNIT_CELL, AnalysisModel, shortened
+from bellows_design.budget import DEFAULT, Budget
+from bellows_design.design.design import Design
+from bellows_design.progress import SILENCE, Progress
+
+if TYPE_CHECKING:
+    from bellows_design.analysis.mesh_plan import PlannedMesh
+    from solver import Event, Mesh, Problem, Solution, SolverOptions
+    from solver.arrays import Reals
+
+ROUGH = 1e-3
+"""Newton tolerance on meshes that are only a step to the next, in units of the body's diagonal."""
+
+
+def started(
+    design: Design,
+    model: AnalysisModel,
+    reason: str,
+    pressures: Sequence[float] = (),
+    progress: Progress = SILENCE,
+    budget: Budget = DEFAULT,
+) -> Computation:
+    """``design`` on the coarsest mesh of ``model``, with the ends if that is the unit cell.
+
+    Args:
+        design: What is computed, at its design pressure.
+        model: The body that stands for it.
+        reason: Why this model; goes into the result.
+        pressures: Further pressures to stop at, MPa.
+        progress: Listens to stages and load.
+        budget: Memory (GiB) and seconds that a mesh may take.
+
+    Returns:
+        The first solution; ``refined`` adds those on finer meshes.
+
+    Raises:
+        GeometryError: The CAD kernel cannot build the body.
+        DesignError: The mesh would exceed the budget.
+        MeshingError: No usable mesh, or none in time.
+    """
+    from solver.meshing import process as meshing_process
+
+    meshing_process.start()  # loads Gmsh while the solid is built
+    progress.stage(f"geometry of the {model.name}")
+    start = time.perf_counter()
+    solid = model.solid(design)
+    spent = Seconds(geometry=time.perf_counter() - start)
+    asked = tuple(sorted(pressures))
+    blank = Computation(design, model, reason, solid, asked, budget, seconds=spent)
+    computation = refined(blank, progress)
+    if model is UNIT_CELL and computation.converged:
+        return _with_ends(computation, progress)
+    return computation
+
+
+def refined(
+    computation: Computation, progress: Progress = SILENCE, plan: PlannedMesh | None = None
+) -> Computation:
+    """The same computation on one finer mesh, started from the finest solution.
+
+    Args:
+        computation: What was solved so far.
+        progress: Listens to stages and load.
+        plan: The mesh to solve on, where it is at hand; else it is planned here.
+
+    Returns:
+        A computation with one mesh more.
+
+    Raises:
+        DesignError: The mesh would exceed the computation's budget.
+        MeshingError: No usable mesh, or none in time.
+    """
+    from solver import peak_von_mises
+
+    number = len(computation.solved) + 1
+    progress.stage(f"mesh {number}")
+    began = time.perf_counter()
+    mesh = (plan or next_plan(computation)).made(computation.budget)
+    meshed = time.perf_counter()
+    progress.stage(f"solve {number}, {len(mesh.tets)} tetrahedra")
+    solution = _solved_on(mesh, computation, progress)
+    spent = Seconds(mesh=meshed - began, solve=time.perf_counter() - meshed)
+    return replace(
+        computation,
+        solved=(*computation.solved, SolvedMesh(solution, peak_von_mises(solution))),
+        seconds=computation.seconds + spent,
+    )
+
+
+def next_plan(computation: Computation) -> PlannedMesh:
+    """The mesh after the finest, whatever it takes."""
+    from bellows_design.analysis.mesh_plan import finer_plan, first_plan
+
+    solid, design = computation.solid, computation.design
+    if not computation.solved:
+        return first_plan(solid, design)
+    return finer_plan(solid, design, computation.finest, computation.model.refinement)
+
+
+def affordable_plan(computation: Computation) -> PlannedMesh | None:
+    """The mesh after the finest; None without a solution to refine, or beyond the budget."""
+    if not computation.converged:
+        return None
+    plan = next_plan(computation)
+    return plan if plan.fits(computation.budget) else None
+
+
+def _solved_on(mesh: Mesh, computation: Computation, progress: Progress) -> Solution:
+    """Solve on the next mesh; only the last of the model's meshes needs the full tolerance."""
+    from solver import SolverOptions, transfer
+
+    design, model, level = computation.design, computation.model, len(computation.solved)
+    initial = transfer(computation.finest, mesh) if level else None
+    only_a_step = level + 1 < model.levels
+    options = SolverOptions(tolerance=ROUGH) if only_a_step else None
+    stops = () if level and only_a_step else computation.pressures
+    return _solved(design, model.problem(design, mesh), progress, options, initial, stops)
+
+
+def _with_ends(computation: Computation, progress: Progress) -> Computation:
+    """With the solution of a short actuator, on the mesh size of the coarsest cell.
+
+    Contact is not modelled in it. That is right outside, where its bubble has no neighbours; but
+    where inner walls touch, the cell without its neighbours stands for the ends, without the stubs
+    of root and tip.
+    """
+    from bellows_design.analysis.wall_contact import image_gap
+    from bellows_design.geometry.actuator import CAVITY
+
+    inner = image_gap(computation.finest, CAVITY)
+    if inner is not None and inner <= 0:
+        return _with_free_ends(computation, progress)
+    return _with_short_actuator(computation, progress)
+
+
+def _with_short_actuator(computation: Computation, progress: Progress) -> Computation:
+    from bellows_design.analysis.mesh_plan import first_plan
+
+    progress.stage("ends: an actuator of one bubble")
+    began = time.perf_counter()
+    short = shortened(computation.design)
+    solid = HALF.solid(short)
+    built = time.perf_counter()
+    mesh = first_plan(solid, short).made(computation.budget)
+    meshed = time.perf_counter()
+    ends = _solved_roughly(short, HALF.problem(short, mesh), computation, progress)
+    spent = Seconds(built - began, meshed - built, time.perf_counter() - meshed)
+    return replace(computation, ends=ends, seconds=computation.seconds + spent)
+
+
+def _with_free_ends(computation: Computation, progress: Progress) -> Computation:
+    """With the solution of a bubble without neighbours, on the coarsest cell's mesh."""
+    progress.stage("ends: a bubble without neighbours")
+    began, design = time.perf_counter(), computation.design
+    problem = FREE_CELL.problem(design, computation.solutions[0].problem.mesh)
+    ends = _solved_roughly(design, problem, computation, progress)
+    spent = Seconds(solve=time.perf_counter() - began)
+    return replace(computation, ends=ends, seconds=computation.seconds + spent)
+
+
+def _solved_roughly(
+    design: Design, problem: Problem, computation: Computation, progress: Progress
+) -> Solution:
+    """Solve for the ends: what they add is small."""
+    from solver import SolverOptions
+
+    options = SolverOptions(tolerance=ROUGH)
+    return _solved(design, problem, progress, options, stops=computation.pressures)
+
+
+def _solved(
+    design: Design,
+    problem: Problem,
+    progress: Progress,
+    options: SolverOptions | None,
+    initial: tuple[Reals, Reals] | None = None,
+    stops: Sequence[float] = (),
+) -> Solution:
+    """Solve at the design's pressure and report the load reached."""
+    from solver import solve
+
+    def report(event: Event) -> None:
+        progress.load(event.load, event.rotation)
+
+    pressure = design.load.pressure
+    return solve(problem, pressure, options, listener=report, initial=initial, stops=stops)

@@ -1,0 +1,98 @@
+"""From an equilibrium of the body that was solved to the whole actuator, its ends included."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from bellows_design.analysis.computation import Computation
+from bellows_design.analysis.models import HALF, UNIT_CELL
+
+if TYPE_CHECKING:
+    from solver import PathPoint, Peak, Solution
+
+
+@dataclass(frozen=True)
+class Reading:
+    """What one equilibrium says about the whole actuator.
+
+    The rotation of the tip against the root passes 360° where it curls on; ``cavity_volume_mm3`` is
+    the air inside the deformed actuator.
+    """
+
+    pressure_mpa: float
+    bending_angle_deg: float
+    max_von_mises_mpa: float
+    cavity_volume_mm3: float
+
+
+def reading(computation: Computation, point: PathPoint) -> Reading:
+    """The whole actuator at a point on the path of one of the solutions."""
+    angle, volume = point.rotation, computation.model.share * point.volume
+    if computation.model is UNIT_CELL:
+        count = computation.design.bellows.bubble_count
+        turned, more = added_by_ends(computation, point)
+        angle, volume = count * 2 * angle + turned, count * volume + more
+    return Reading(point.pressure + 0.0, angle, point.max_von_mises, volume)  # never -0
+
+
+def final_readings(computation: Computation) -> tuple[Reading, ...]:
+    """The end of the path of every mesh, the finest last."""
+    return _readings(computation, (solution.path[-1] for solution in computation.solutions))
+
+
+def path_readings(computation: Computation) -> tuple[Reading, ...]:
+    """The load path of the coarsest mesh, with its end on the finest."""
+    points = (*computation.solutions[0].path[:-1], computation.finest.path[-1])
+    return _readings(computation, points)
+
+
+def curve_readings(computation: Computation) -> tuple[Reading, ...]:
+    """Readings at the pressures asked for, on the finest mesh; the design's is the last."""
+    asked = computation.pressures
+    wanted = (
+        point
+        for point in computation.finest.path
+        if np.isclose(point.pressure, asked, atol=1e-12).any()
+    )
+    return _readings(computation, wanted)
+
+
+def added_by_ends(computation: Computation, point: PathPoint) -> tuple[float, float]:
+    """Rotation (°) and volume (mm³) by which both ends differ from one bubble more.
+
+    They are a short actuator's, or a bubble's without neighbours. Cell and ends have meshes of the
+    same size, so that the mesh's own error drops out. Exact at the pressures asked for; between
+    them in proportion to the cell's rotation.
+    """
+    ends, coarsest = computation.ends, computation.solutions[0]
+    if ends is None:
+        return 0.0, 0.0
+    short, cell = _nearest(ends, point.pressure), _nearest(coarsest, point.pressure)
+    if not np.isclose(short.pressure, point.pressure):
+        short, cell = ends.path[-1], coarsest.path[-1]
+    part = point.rotation / cell.rotation if short.pressure != point.pressure else 1.0
+    if ends.problem.moving_plane is not None:  # a quarter of a bubble as well
+        turned, more = 2 * short.rotation, UNIT_CELL.share * short.volume
+    else:
+        turned, more = short.rotation, HALF.share * short.volume
+    return part * (turned - 2 * cell.rotation), more - UNIT_CELL.share * cell.volume
+
+
+def position(computation: Computation, peak: Peak) -> tuple[float, float, float]:
+    """Where a peak lies in the undeformed actuator, mm; of all bubbles alike, in the middle one."""
+    x, y, z = peak.position
+    middles = computation.design.bellows.bubble_middles
+    return (x + middles[len(middles) // 2] if computation.model is UNIT_CELL else x), y, z
+
+
+def _readings(computation: Computation, points: Iterable[PathPoint]) -> tuple[Reading, ...]:
+    return tuple(reading(computation, point) for point in points)
+
+
+def _nearest(solution: Solution, pressure: float) -> PathPoint:
+    """The point of a solution's path nearest to a pressure."""
+    return min(solution.path, key=lambda point: abs(point.pressure - pressure))

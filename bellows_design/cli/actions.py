@@ -1,0 +1,142 @@
+"""What each command does: from its parsed options to its answer.
+
+Heavy modules are imported once the input is known to be good.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from bellows_design.cli.answer import DONE, NOT_SOLVED, REFUSED, Answer
+from bellows_design.cli.output_files import require_file, require_folder, require_plot
+
+if TYPE_CHECKING:
+    from bellows_design.cli.options import BudgetOptions, DesignOptions
+
+
+def list_designs() -> Answer:
+    """Names and descriptions of the shipped designs."""
+    from bellows_design.design.shipped import load_design, shipped_designs
+
+    designs = {name: load_design(name).description for name in shipped_designs()}
+    return Answer({"designs": designs}, [f"{name:22} {text}" for name, text in designs.items()])
+
+
+def design(options: DesignOptions, output: Path) -> Answer:
+    """Build the printed part and write it in the format of ``output``'s suffix."""
+    from bellows_design.export.formats import write_part, writer_for
+    from bellows_design.pipeline import build_part
+    from bellows_design.progress import on_stderr
+
+    chosen = options.load()
+    writer_for(output)
+    require_folder(output)
+    with on_stderr() as progress:
+        progress.stage("geometry")
+        part = build_part(chosen)
+        progress.stage(f"write {output.name}")
+        write_part(part, output)
+    triangles, volume = len(part.mesh.triangles), part.mesh.volume
+    content = {
+        "design": chosen.name,
+        "digest": chosen.digest,
+        "file": str(output),
+        "triangles": triangles,
+        "volume_mm3": volume,
+    }
+    return Answer(content, [f"{output}: {triangles} triangles, {volume / 1000:.2f} cm³"])
+
+
+def check(options: DesignOptions, printer: str | None) -> Answer:
+    """Check the part on the design's printer, or on another by name or path."""
+    from bellows_design import pipeline
+    from bellows_design.progress import on_stderr
+    from bellows_design.reports.check import check_table
+    from printers import load_profile
+
+    chosen = options.load()
+    load_profile(printer or chosen.printer)
+    with on_stderr() as progress:
+        progress.stage("geometry")
+        part = pipeline.build_part(chosen)
+        progress.stage("check")
+        report = pipeline.check(chosen, part, printer)
+    status = DONE if report.verdict == "pass" else REFUSED
+    return Answer(pipeline.check_dict(chosen, report), check_table(chosen, report), status)
+
+
+def evaluate(
+    options: DesignOptions,
+    model: str,
+    pressure: str | None,
+    accuracy: float | None,
+    vtu: Path | None,
+    limits: BudgetOptions,
+) -> Answer:
+    """Compute the design under ``pressure``, to estimated errors of ``accuracy`` percent."""
+    from bellows_design.cli.pressures import parse_pressures
+    from bellows_design.progress import on_stderr
+    from bellows_design.reports.evaluation import evaluation_table
+
+    pressures = () if pressure is None else parse_pressures(pressure)
+    chosen = options.load(pressures[-1] if pressures else None)
+    require_file(vtu, ".vtu")
+    budget = limits.budget()
+    from bellows_design.analysis import evaluate as analysis
+
+    with on_stderr() as progress:
+        found = analysis.evaluate(chosen, model, accuracy, pressures, progress, budget=budget)
+        if vtu is not None:
+            analysis.write_vtu(found, vtu)
+    status = DONE if found.converged else NOT_SOLVED
+    return Answer(found.to_dict(), evaluation_table(found), status)
+
+
+def run(options: DesignOptions, output: Path, limits: BudgetOptions) -> Answer:
+    """Take the design through all stages; what is approved is written below ``output``."""
+    from bellows_design import pipeline
+    from bellows_design.progress import on_stderr
+    from bellows_design.reports.outcome import outcome_table
+    from printers import load_profile
+
+    chosen = options.load(rename=True)
+    load_profile(chosen.printer)
+    budget = limits.budget()
+    with on_stderr() as progress:
+        outcome = pipeline.run(chosen, output, progress, budget)
+    refused = REFUSED if outcome.evaluation.converged else NOT_SOLVED
+    status = DONE if outcome.verdict.approved else refused
+    return Answer(outcome.to_dict(), outcome_table(outcome), status)
+
+
+def benchmark(
+    options: DesignOptions,
+    models: Sequence[str],
+    meshes: int | None,
+    output: Path | None,
+    plot: Path | None,
+    limits: BudgetOptions,
+) -> Answer:
+    """Time ``models`` on so many meshes each; write the numbers and a picture if asked."""
+    from bellows_design.files.json_files import write_json
+    from bellows_design.progress import on_stderr
+    from bellows_design.reports.benchmark import benchmark_tables
+    from bellows_design.reports.benchmark_plot import plot_benchmark
+
+    chosen = options.load()
+    budget = limits.budget()
+    require_file(output, ".json")
+    require_plot(plot)
+    from bellows_design.benchmark import study as benchmarks
+
+    names = models or benchmarks.DEFAULT_MODELS
+    with on_stderr() as progress:
+        study = benchmarks.study(chosen, names, meshes, progress, budget=budget)
+    content = study.to_dict()
+    if output is not None:
+        write_json(content, output)
+    if plot is not None:
+        plot_benchmark(study, plot)
+    return Answer(content, benchmark_tables(study), DONE if study.converged else NOT_SOLVED)

@@ -1,0 +1,109 @@
+"""What the commands take from the command line: their options, and the groups several share."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from bellows_design.materials.laws import FIT_CHOICES
+
+if TYPE_CHECKING:
+    from bellows_design.budget import Budget
+    from bellows_design.design.design import Design
+
+DesignName = Annotated[
+    str,
+    typer.Argument(metavar="DESIGN", help="A shipped design (see bellows list) or a TOML file."),
+]
+Settings = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--set",
+        metavar="KEY=VALUE",
+        help="Change one value: bubble_thickness=1.2, indent.depth=0.4. Repeatable.",
+    ),
+]
+AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object instead of text.")]
+Printer = Annotated[
+    str | None, typer.Option(help="Printer profile, or a TOML file, instead of the design's.")
+]
+Pressure = Annotated[
+    str | None,
+    typer.Option(
+        metavar="MPA", help="Pressure instead of the design's, MPa; START:STOP:STEP for a curve."
+    ),
+]
+Accuracy = Annotated[
+    float | None,
+    typer.Option(metavar="PERCENT", help="Refine until the estimated errors are this small."),
+]
+Vtu = Annotated[
+    Path | None, typer.Option(help="Also write the deformed mesh, for ParaView (.vtu).")
+]
+Memory = Annotated[
+    float | None,
+    typer.Option(
+        metavar="GIB",
+        help="Memory to take at most; larger meshes are refused. Without it three quarters of the "
+        "machine's, at most 4.",
+    ),
+]
+MeshSeconds = Annotated[
+    float | None,
+    typer.Option(metavar="S", help="Time limit of each mesh, in seconds; without it 120."),
+]
+Meshes = Annotated[
+    int | None,
+    typer.Option(metavar="N", help="Meshes of each; without it one more than evaluate uses."),
+]
+FitData = Annotated[
+    Path, typer.Argument(metavar="CSV", help="Columns mode, stretch or strain, and stress_mpa.")
+]
+FitModelName = Annotated[
+    str, typer.Option(help=f"{', '.join(FIT_CHOICES[:-1])} or {FIT_CHOICES[-1]}.")
+]
+YieldStrength = Annotated[
+    float | None, typer.Option(metavar="MPA", help="Yield strength of that material.")
+]
+
+
+@dataclass(frozen=True)
+class DesignOptions:
+    """A design as it is named, and the changes to it, each ``key=value``."""
+
+    name: str
+    settings: tuple[str, ...] = ()
+
+    def load(self, pressure: float | None = None, rename: bool = False) -> Design:
+        """The design as named and changed. Raises ``DesignError``.
+
+        ``pressure`` (MPa) replaces the design's; ``rename`` gives a changed design a name of its
+        own.
+        """
+        from bellows_design.design.overrides import renamed_if_changed, with_overrides
+        from bellows_design.design.shipped import load_design
+
+        original = load_design(self.name)
+        load = [] if pressure is None else [f"load.pressure={pressure!r}"]
+        changed = with_overrides(original, [*self.settings, *load])
+        return renamed_if_changed(changed, original) if rename else changed
+
+
+@dataclass(frozen=True)
+class BudgetOptions:
+    """Memory (GiB) and seconds for each mesh, as far as they are given."""
+
+    memory: float | None = None
+    mesh_seconds: float | None = None
+
+    def budget(self) -> Budget:
+        """The limits given, and the usual ones of those that are not. Raises ``DesignError``."""
+        from bellows_design.budget import DEFAULT, Budget
+
+        return Budget(
+            DEFAULT.memory if self.memory is None else self.memory,
+            DEFAULT.mesh_seconds if self.mesh_seconds is None else self.mesh_seconds,
+        )

@@ -1,0 +1,54 @@
+"""The conditions of a design: the load it must carry and the limits it must keep."""
+
+from __future__ import annotations
+
+from pydantic import Field, field_validator
+from pydantic_core import PydanticKnownError
+
+from bellows_design.design.lengths import length_field
+from bellows_design.validation.parameters import Parameters
+
+ATMOSPHERE = 0.101325
+"""MPa. The standard atmosphere: no vacuum pulls more."""
+
+LEAST_PRESSURE = 0.001
+"""MPa, of either sign."""
+
+
+class Load(Parameters):
+    """What the actuator must carry: a pressure in MPa.
+
+    The bounds are the full vacuum and the 6 bar of workshop air, and 10 mbar of either: wide for a
+    soft actuator, yet narrow enough that 0.1 MPa given in bar, kPa or Pa falls outside.
+    """
+
+    pressure: float = Field(
+        default=0.1,
+        ge=-ATMOSPHERE,
+        le=0.6,
+        description="design pressure inside the chambers over that outside, negative for a vacuum",
+        json_schema_extra={"unit": "MPa", "least": LEAST_PRESSURE},
+    )
+
+    @field_validator("pressure")
+    @classmethod
+    def _is_a_load(cls, pressure: float) -> float:
+        if 0 <= pressure < LEAST_PRESSURE:
+            raise PydanticKnownError("greater_than_equal", {"ge": LEAST_PRESSURE})
+        if -LEAST_PRESSURE < pressure < 0:
+            raise PydanticKnownError("less_than_equal", {"le": -LEAST_PRESSURE})
+        return pressure
+
+
+class Limits(Parameters):
+    """What an approved design must keep, besides the printer's rules: stress in MPa, room in mm."""
+
+    max_von_mises: float | None = Field(
+        default=None,
+        ge=0.01,
+        le=200,
+        description="highest von Mises stress; without it the material's yield strength",
+        json_schema_extra={"unit": "MPa"},
+    )
+    cross_section_width: float = length_field(4, 250, "room along y", 20.0)
+    cross_section_height: float = length_field(4, 250, "room along z", 20.0)

@@ -1,0 +1,107 @@
+"""The machine this runs on, and how much of it a container may use.
+
+psutil measures the machine on every platform; the memory it reports is the host's, so the limit of
+a container's control group, version 1 or 2, is read besides.
+"""
+
+from __future__ import annotations
+
+import os
+import platform
+import sys
+from dataclasses import asdict, dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from bellows_design.versions import versions
+
+MIB, GIB = 2**20, 2**30
+
+CONTROL_GROUPS = (
+    Path("/sys/fs/cgroup/memory.max"),
+    Path("/sys/fs/cgroup/memory/memory.limit_in_bytes"),
+)
+"""Where Linux states a container's limit of memory: control groups of version 2 and 1."""
+
+
+@dataclass(frozen=True)
+class Machine:
+    """What times are measured on; None where the platform does not say.
+
+    ``memory_gib`` is the container's where that is less. A ``load_average`` of the last minute far
+    above 0 means that others were computing too, and that the times are too long.
+    """
+
+    processor: str
+    cores: int | None
+    memory_gib: float | None
+    load_average: float | None
+    system: str
+    versions: dict[str, str]
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain values for JSON."""
+        return asdict(self)
+
+
+def machine() -> Machine:
+    """This machine, as it is now."""
+    import psutil
+
+    return Machine(
+        processor=_processor(),
+        cores=psutil.cpu_count(),
+        memory_gib=memory_gib(),
+        load_average=os.getloadavg()[0] if hasattr(os, "getloadavg") else None,
+        system=f"{platform.system()} {platform.machine()}",
+        versions=versions(),
+    )
+
+
+@cache
+def memory_gib() -> float | None:
+    """Memory of this machine, or of the container this runs in, GiB; None where unknown."""
+    known = [size for size in (_physical_memory(), *map(_limit_in, CONTROL_GROUPS)) if size]
+    return min(known, default=None)
+
+
+def peak_memory_mib() -> float | None:
+    """Largest memory this process has held so far, MiB; None where the platform does not say."""
+    if sys.platform == "win32":
+        import psutil
+
+        return float(psutil.Process().memory_info().peak_wset / MIB)
+    try:
+        import resource
+    except ImportError:
+        return None
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    return peak / MIB if sys.platform == "darwin" else peak * 1024 / MIB
+
+
+def _physical_memory() -> float | None:
+    import psutil
+
+    try:
+        return float(psutil.virtual_memory().total / GIB)
+    except OSError:  # a sandbox may hide /proc
+        return None
+
+
+def _limit_in(file: Path) -> float | None:
+    """The limit that a file of a control group states, GiB; None without one."""
+    try:
+        return int(file.read_text("ascii")) / GIB
+    except (OSError, ValueError):  # ValueError: "max"
+        return None
+
+
+def _processor() -> str:
+    """The processor's name, as far as the platform states it."""
+    try:
+        lines = Path("/proc/cpuinfo").read_text("utf-8", "replace").splitlines()
+    except OSError:
+        lines = []
+    names = (line.partition(":")[2].strip() for line in lines if line.startswith("model name"))
+    return next(names, "") or platform.processor() or platform.machine()

@@ -1,0 +1,117 @@
+"""The material laws: what they are called, how they are written, and how they are fitted.
+
+This is the one table of them in this package, for materials, fits and the help of the command. All
+laws so far are cases of Ogden's with Yeoh's higher terms, hence have the constants μ, α and
+``higher``; see ``material.py``. A new law is one more row, and its fit a file in ``fitting/``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from bellows_design.materials.fitting.fit_result import Fit
+    from bellows_design.materials.fitting.measurements import Measurements
+    from bellows_design.materials.fitting.weighted import Weighted
+
+Fitter = Callable[["Measurements", "Weighted", "FitModel"], "Fit"]
+
+
+@dataclass(frozen=True)
+class FitModel:
+    """A form of a law that measurements are fitted with.
+
+    Attributes:
+        name: As ``bellows fit --model`` takes it.
+        exponents: α of each term; None where it is fitted.
+        fitter: Function that fits it.
+        higher: Number of constants besides μ and α.
+        automatic: True if it is tried when the best model is asked for.
+    """
+
+    name: str
+    exponents: tuple[float | None, ...]
+    fitter: Fitter
+    higher: int = 0
+    automatic: bool = True
+
+    @property
+    def constants(self) -> int:
+        """Number of constants that are fitted."""
+        return len(self.exponents) + self.exponents.count(None) + self.higher
+
+
+@dataclass(frozen=True)
+class Law:
+    """A material law.
+
+    Attributes:
+        name: As a material's ``model`` names it.
+        exponents: Its α; empty where each material has its own.
+        written: The sets of constants it may be written with instead of μ, α and ``higher``. The
+            first of them, as many as there are exponents, are half of a μ, the rest ``higher``.
+        fits: Forms whose fits give a material of this law.
+        softens: True if constants may be negative: such a material need only be stable over the
+            range of its tests.
+    """
+
+    name: str
+    exponents: tuple[float, ...] = ()
+    written: tuple[tuple[str, ...], ...] = ()
+    fits: tuple[FitModel, ...] = ()
+    softens: bool = False
+
+
+def _ogden(data: Measurements, problem: Weighted, model: FitModel) -> Fit:
+    from bellows_design.materials.fitting.ogden import fit_ogden
+
+    return fit_ogden(data, problem, model)
+
+
+def _yeoh(data: Measurements, problem: Weighted, model: FitModel) -> Fit:
+    from bellows_design.materials.fitting.yeoh import fit_yeoh
+
+    return fit_yeoh(data, problem, model)
+
+
+_ROWS = (
+    Law(
+        "ogden",
+        fits=(
+            FitModel("neo-hooke", (2.0,), _ogden),
+            FitModel("ogden1", (None,), _ogden),
+            FitModel("mooney-rivlin", (2.0, -2.0), _ogden),
+            FitModel("ogden2", (None, None), _ogden),
+            FitModel("ogden3", (None, None, None), _ogden),
+        ),
+    ),
+    Law("neo-hooke", (2.0,), (("c10",),)),
+    Law("mooney-rivlin", (2.0, -2.0), (("c10", "c01"),)),
+    Law(
+        "yeoh",
+        (2.0,),
+        (("c10", "c20"), ("c10", "c20", "c30")),
+        (FitModel("yeoh", (2.0,), _yeoh, higher=2, automatic=False),),
+        softens=True,
+    ),
+)
+
+LAWS = {law.name: law for law in _ROWS}
+"""Name -> law."""
+
+FIT_MODELS = {model.name: model for law in _ROWS for model in law.fits}
+"""Name -> what may be fitted; those tried for the best one come in the order of their size."""
+
+BEST = "best"
+FIT_CHOICES = (BEST, *FIT_MODELS)
+"""What may be asked of a fit; ``best`` is one of the automatic models."""
+
+OWN_CONSTANTS = tuple(dict.fromkeys(key for law in _ROWS for form in law.written for key in form))
+"""All constants a law may be written with."""
+
+
+def law_of_fit(model: str) -> Law:
+    """The law of the material that a fit of ``model`` gives."""
+    return next(law for law in _ROWS if FIT_MODELS[model] in law.fits)

@@ -1,0 +1,224 @@
+"""A material: the constants of a printed elastomer, and the range they are known to hold in.
+
+A material is the Ogden model in Abaqus's form, of any number of terms, with Yeoh's higher ones,
+
+    W = Σ 2 μᵢ/αᵢ² (λ̄₁^αᵢ + λ̄₂^αᵢ + λ̄₃^αᵢ − 3) + C₂₀ (Ī₁ − 3)² + C₃₀ (Ī₁ − 3)³,
+
+with μᵢ and Cᵢ₀ in MPa. The literature writes μₚ/αₚ instead: μᵢ = μₚ αₚ / 2. The field's other
+models are cases of it, and are written with their own constants:
+
+    model = "neo-hooke"      c10                  μ = 2 c10, α = 2
+    model = "mooney-rivlin"  c10, c01             μ = (2 c10, 2 c01), α = (2, −2)
+    model = "yeoh"           c10, c20, c30        μ = 2 c10, α = 2, higher = (c20, c30)
+
+The laws themselves stand in ``laws.py``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Annotated, Any, Self
+
+from pydantic import Field, field_validator, model_validator
+from pydantic_core import PydanticKnownError
+
+from bellows_design.materials.laws import LAWS, OWN_CONSTANTS, Law
+from bellows_design.validation.parameters import Parameters, require
+from bellows_design.validation.quoting import quoted
+
+SOFTEST, STIFFEST = 0.003, 300.0
+"""MPa. Initial shear moduli from the softest silicones to the hardest TPU; more is a unit."""
+
+MOST_HIGHER = 4
+"""Of Yeoh's higher terms; more would only fit the noise."""
+
+Strain = Annotated[float, Field(gt=-1, le=20)]
+Coefficient = Annotated[float, Field(ge=-STIFFEST, le=STIFFEST)]
+
+
+class Material(Parameters):
+    """Hyperelastic material; every Ogden term obeys Hill's inequality μₚαₚ > 0, that is μᵢ > 0.
+
+    Terms of mixed sign can be stable over the range they were fitted in, but a design may leave
+    that range anywhere on its load path; they are refused rather than trusted. Yeoh's higher terms
+    may be negative as long as the three tests are stable over ``valid_strain``, or everywhere
+    without one; results are checked against it.
+
+    Attributes:
+        name: What the material is called; one line of text.
+        model: Name of its law, see ``laws.LAWS``.
+        mu: μᵢ of Abaqus's form, MPa.
+        alpha: Exponents αᵢ, one for each μᵢ.
+        higher: C₂₀, C₃₀, … of Yeoh's model, MPa.
+        yield_strength: Highest admissible von Mises stress unless the design limits it, MPa.
+        elongation_at_break: Nominal strain at break in a tensile test, %.
+        valid_strain: Lowest and highest principal nominal strain of the tests (fractions).
+        source: Where the constants are from.
+
+    Raises:
+        pydantic.ValidationError: A number leaves its bounds, or the material is unstable. A
+            ``Design`` and ``load_material`` make sentences of it.
+    """
+
+    name: str = Field(default="custom", min_length=1, max_length=64)
+    model: str = Field(default="ogden", description="name of the material's law")
+    mu: tuple[float, ...] = Field(
+        min_length=1,
+        max_length=6,
+        description="μᵢ of Abaqus's form",
+        json_schema_extra={"unit": "MPa"},
+    )
+    alpha: tuple[float, ...] = Field(min_length=1, max_length=6, description="exponents αᵢ")
+    higher: tuple[Coefficient, ...] = Field(
+        default=(),
+        max_length=MOST_HIGHER,
+        description="C₂₀, C₃₀, … of Yeoh's model",
+        json_schema_extra={"unit": "MPa"},
+    )
+    yield_strength: float = Field(ge=0.01, le=200, json_schema_extra={"unit": "MPa"})
+    elongation_at_break: float | None = Field(
+        default=None, ge=20, le=3000, json_schema_extra={"unit": "%"}
+    )
+    valid_strain: tuple[Strain, Strain] | None = Field(
+        default=None, description="lowest and highest principal nominal strain of the tests"
+    )
+    source: str = Field(default="", max_length=1000)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _as_ogden(cls, data: Any) -> Any:
+        """With the constants of the model's own names turned into μ, α and higher ones."""
+        return _translated(data) if isinstance(data, dict) else data
+
+    @field_validator("model")
+    @classmethod
+    def _is_a_law(cls, model: str) -> str:
+        if model not in LAWS:
+            *others, last = (f"'{name}'" for name in LAWS)
+            expected = f"{', '.join(others)} or {last}"
+            raise PydanticKnownError("literal_error", {"expected": expected})
+        return model
+
+    @field_validator("mu", "alpha", "higher", "valid_strain", mode="before")
+    @classmethod
+    def _list_is_tuple(cls, value: Any) -> Any:
+        return tuple(value) if isinstance(value, list) else value
+
+    @field_validator("valid_strain")
+    @classmethod
+    def _range_holds_zero(cls, value: tuple[float, float] | None) -> tuple[float, float] | None:
+        require(
+            value is None or value[0] < 0 < value[1],
+            f"material.valid_strain is {list(value or ())} but must run from a number below 0 to "
+            "one above it (nominal strain, a fraction)",
+        )
+        return value
+
+    @field_validator("name", "source")
+    @classmethod
+    def _is_printable(cls, text: str) -> str:
+        require(text.isprintable(), f"{quoted(text)} must be printable text on one line")
+        return text
+
+    @model_validator(mode="after")
+    def _is_stable(self) -> Self:
+        for check in (_check_terms, _check_modulus, _check_exponents, _check_higher):
+            check(self)
+        return self
+
+    @property
+    def initial_shear_modulus(self) -> float:
+        """Shear modulus of the undeformed material, MPa: Σ μᵢ."""
+        return sum(self.mu)
+
+
+def _check_terms(material: Material) -> None:
+    mu, alpha = material.mu, material.alpha
+    require(
+        len(mu) == len(alpha),
+        f"material.mu has {len(mu)} and material.alpha {len(alpha)} numbers; each term needs one "
+        "of both",
+    )
+    for index, (modulus, exponent) in enumerate(zip(mu, alpha, strict=True)):
+        require(
+            modulus > 0,
+            f"material.mu[{index}] is {modulus:g} MPa but must be greater than 0 (Hill's "
+            "inequality); constants of the literature's form become μ = μₚ αₚ / 2",
+        )
+        require(
+            abs(exponent) <= 50,
+            f"material.alpha[{index}] is {exponent:g} but must lie between -50 and 50",
+        )
+
+
+def _check_modulus(material: Material) -> None:
+    shear = material.initial_shear_modulus
+    require(
+        SOFTEST <= shear <= STIFFEST,
+        f"material.mu sums to an initial shear modulus of {shear:g} MPa but must lie between "
+        f"{SOFTEST:g} and {STIFFEST:g} MPa; are the constants given in MPa?",
+    )
+
+
+def _check_exponents(material: Material) -> None:
+    fixed = LAWS[material.model].exponents
+    require(
+        fixed in ((), material.alpha),
+        f"material.alpha is {list(material.alpha)} but the model {quoted(material.model)} has "
+        f"{list(fixed)}",
+    )
+
+
+def _check_higher(material: Material) -> None:
+    if not material.higher:
+        return
+    from solver.material.stability import HIGHEST, LOWEST, stability
+
+    low, high = material.valid_strain or (LOWEST - 1, HIGHEST - 1)
+    found = stability(material.mu, material.alpha, material.higher)
+    worst = min(found.ranges, key=lambda each: each.highest / each.lowest)
+    require(
+        found.covers(max(1 + low, LOWEST), min(1 + high, HIGHEST)),
+        f"material.higher is {list(material.higher)} MPa, with which {worst.mode} tests are "
+        f"stable only at stretches from {worst.lowest:.3g} to {worst.highest:.3g}, less than "
+        "valid_strain says (all stretches, without one)",
+    )
+
+
+def _translated(table: dict[str, Any]) -> dict[str, Any]:
+    """The same material with μ, α and ``higher`` instead of the constants of its own law."""
+    given = [key for key in OWN_CONSTANTS if key in table]
+    if not given:
+        return table
+    for key in ("mu", "alpha", "higher"):
+        require(
+            key not in table, f"material.{given[0]} and material.{key} say the same thing twice"
+        )
+    law, form = _law_and_form(str(table.get("model", "ogden")), given)
+    rest = {key: value for key, value in table.items() if key not in given}
+    values = [_constant(key, table[key]) for key in form]
+    count = len(law.exponents)
+    mu, higher = tuple(2 * value for value in values[:count]), tuple(values[count:])
+    return rest | {"mu": mu, "alpha": law.exponents, "higher": higher}
+
+
+def _law_and_form(name: str, given: Sequence[str]) -> tuple[Law, tuple[str, ...]]:
+    """The law called ``name``, and which of its sets of constants are given."""
+    law = LAWS.get(name, Law(name))
+    for form in law.written:
+        if set(form) == set(given):
+            return law, form
+    forms = " or ".join(", ".join(form) for form in law.written or (("mu", "alpha"),))
+    raise ValueError(
+        f"material has {', '.join(given)} but the model {quoted(name)} is written with {forms}"
+    )
+
+
+def _constant(key: str, value: Any) -> float:
+    number = isinstance(value, int | float) and not isinstance(value, bool)
+    require(
+        number and abs(value) <= STIFFEST,
+        f"material.{key} is {quoted(str(value)[:40])} but must lie between {-STIFFEST:g} and "
+        f"{STIFFEST:g} MPa",
+    )
+    return float(value)

@@ -1,0 +1,44 @@
+"""What all pictures share: matplotlib from the extra ``pictures``, their size and colours."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from importlib.util import find_spec
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from bellows_design.errors import DesignError
+from bellows_design.files.atomic import replacing
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7")
+"""Distinguishable for colour-blind people too (Okabe and Ito)."""
+
+
+def require_matplotlib() -> None:
+    """Raise ``DesignError`` if it is not installed. Imports nothing."""
+    if find_spec("matplotlib") is None:
+        raise DesignError(
+            "a plot needs matplotlib, which comes with the extra “pictures”: "
+            "pip install -e '.[pictures]'."
+        )
+
+
+@contextmanager
+def two_axes(title: str, path: Path) -> Iterator[tuple[Axes, Axes]]:
+    """Two axes beside each other; after the block they are written to ``path`` as PNG.
+
+    The file is complete or not there. Raises ``DesignError`` without matplotlib.
+    """
+    require_matplotlib()
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(11, 4.8), layout="constrained")
+    figure.suptitle(title)
+    left, right = figure.subplots(1, 2)
+    yield left, right
+    with replacing(path) as temporary:
+        figure.savefig(temporary, dpi=130, format="png")

@@ -1,0 +1,1 @@
+"""Checked parameters, and one clear sentence for each problem of theirs."""

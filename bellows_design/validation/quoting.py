@@ -1,0 +1,55 @@
+"""Words for messages: values as they may be shown, and the known words like an unknown one."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+from pathlib import Path
+
+_LONGEST_QUOTE = 60
+_MOST_NAMED = 13
+_LONGEST_COMPARED = 200
+
+
+def quoted(value: object) -> str:
+    """``value`` as it may stand in a message: printable, on one line, at most 60 characters."""
+    text = value if isinstance(value, str) else _represented(value)
+    text = text[: _LONGEST_QUOTE + 1]
+    text = "".join(sign if sign.isprintable() else "?" for sign in text)
+    text = text if len(text) <= _LONGEST_QUOTE else text[: _LONGEST_QUOTE - 1] + "…"
+    return f"“{text}”" if isinstance(value, str) else text
+
+
+def quoted_path(path: str | Path) -> str:
+    """The path as it may stand in a message: of a long one only the file's name."""
+    whole = quoted(str(path))
+    return quoted(Path(path).name) if "…" in whole else whole
+
+
+def quoted_reason(error: Exception) -> str:
+    """The message of ``error`` as part of a sentence: one line, no full stop."""
+    return quoted(str(error).rstrip(".")).strip("“”")
+
+
+def did_you_mean(unknown: str, known: Iterable[str]) -> str:
+    """``; did you mean a or b?`` for the known words closest to ``unknown``, else the known ones.
+
+    A dotted word is also compared by its last part: ``pressure`` finds ``load.pressure``.
+    """
+    words = list(known)
+    unknown = unknown[:_LONGEST_COMPARED]
+    last = unknown.rsplit(".", 1)[-1]
+    by_part = {word.rsplit(".", 1)[-1]: word for word in reversed(words)}
+    close = difflib.get_close_matches(unknown, words, n=3, cutoff=0.6)
+    close += [by_part[part] for part in difflib.get_close_matches(last, by_part, n=3, cutoff=0.7)]
+    if close:
+        return f"; did you mean {' or '.join(dict.fromkeys(close))}?"
+    more = f" and {len(words) - _MOST_NAMED} more" if len(words) > _MOST_NAMED else ""
+    return f"; known are {', '.join(words[:_MOST_NAMED])}{more}."
+
+
+def _represented(value: object) -> str:
+    try:
+        return repr(value)
+    except (ValueError, RecursionError):  # 4300 digits, 1000 levels
+        return "a huge number" if isinstance(value, int) else "too much to show"

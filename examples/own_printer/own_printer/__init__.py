@@ -1,0 +1,1 @@
+"""Printer profiles: the TOML files of this package, each known by its file's name."""

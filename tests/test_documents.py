@@ -1,0 +1,147 @@
+"""Links, anchors and paths in the documents lead somewhere; references leave nothing out."""
+
+from __future__ import annotations
+
+import re
+from functools import cache
+from itertools import count
+from pathlib import Path
+
+import pytest
+
+from bellows_design.design import Design
+from bellows_design.design.overrides import known_keys
+from bellows_design.materials import material_names
+from printers import PrinterProfile, SlicerAdvice, available_profiles
+
+ROOT = Path(__file__).parents[1]
+DOCS = sorted((ROOT / "docs").glob("*.md"))
+OPTIONAL = [path for path in [ROOT / "CONTRIBUTING.md"] if path.exists()]
+DOCUMENTS = [ROOT / "README.md", ROOT / "CHANGELOG.md", *OPTIONAL, *DOCS]
+BLOCK = re.compile(r"^```.*?^```", re.MULTILINE | re.DOTALL)
+LINK = re.compile(r"\]\(([^()\s]+)\)")
+CODE = re.compile(r"`([^`\n]+)`")
+PATH = re.compile(r"\.{0,2}[A-Za-z0-9_-][A-Za-z0-9_.-]*(/[A-Za-z0-9_.-]+)+/?|[A-Za-z0-9_.-]+/")
+PLACEHOLDER = "NAME"
+"""In a path: any name."""
+
+each_document = pytest.mark.parametrize(
+    "document", DOCUMENTS, ids=lambda path: path.relative_to(ROOT).as_posix()
+)
+
+
+@cache
+def text_of(document: Path) -> str:
+    """A document without its blocks of code."""
+    return BLOCK.sub("", document.read_text("utf-8"))
+
+
+@cache
+def anchors(document: Path) -> frozenset[str]:
+    """What GitHub calls the headings of a document."""
+    found: set[str] = set()
+    for heading in re.findall(r"^#+ (.+)$", text_of(document), re.MULTILINE):
+        plain = re.sub(r"\[([^]]*)\]\([^)]*\)", r"\1", heading).lower()
+        slug = re.sub(r"[^\w -]", "", plain).strip().replace(" ", "-")
+        names = (slug if number == 0 else f"{slug}-{number}" for number in count())
+        found.add(next(name for name in names if name not in found))
+    return frozenset(found)
+
+
+def local_links(document: Path) -> list[str]:
+    """Targets of all links that lead to no other site."""
+    return [link for link in LINK.findall(text_of(document)) if "://" not in link]
+
+
+@each_document
+def test_every_link_leads_to_a_file_and_a_heading(document: Path) -> None:
+    broken = []
+    for link in local_links(document):
+        path, _, anchor = link.partition("#")
+        target = (document.parent / path).resolve() if path else document
+        if not target.exists() or (anchor and anchor not in anchors(target)):
+            broken.append(link)
+    assert not broken
+
+
+@each_document
+def test_every_path_named_in_code_exists(document: Path) -> None:
+    """Paths count from the top of the repository or from the document."""
+    missing = []
+    for code in CODE.findall(text_of(document)):
+        for word in code.split():
+            if PATH.fullmatch(word) and not (exists(ROOT, word) or exists(document.parent, word)):
+                missing.append(word)
+    assert not missing
+
+
+def exists(folder: Path, path: str) -> bool:
+    """Whether there is a file or folder of that name, or of a form such as ``exports/NAME/``."""
+    if PLACEHOLDER not in path:
+        return (folder / path).exists()
+    return any(folder.glob(path.replace(PLACEHOLDER, "*")))
+
+
+def test_every_page_is_linked_from_the_readme() -> None:
+    linked = {(ROOT / link.partition("#")[0]).resolve() for link in local_links(ROOT / "README.md")}
+    assert set(DOCS) <= linked
+
+
+def undocumented(names: set[str], page: str) -> set[str]:
+    """Names that do not stand in code on a page of the documentation."""
+    words = {
+        word
+        for code in CODE.findall((ROOT / "docs" / page).read_text("utf-8"))
+        for word in re.findall(r"-{0,2}[A-Za-z0-9_]+(?:-[A-Za-z0-9_]+)*", code)
+    }
+    return names - words
+
+
+def test_every_field_of_a_design_is_documented() -> None:
+    fields = {key.rpartition(".")[2] for key in known_keys() if not key.startswith("material.")}
+    assert not undocumented(fields, "design-file.md")
+
+
+def test_every_material_and_every_field_of_one_is_documented() -> None:
+    fields = {key.rpartition(".")[2] for key in known_keys() if key.startswith("material.")}
+    assert not undocumented(fields | set(material_names()), "materials.md")
+
+
+def test_every_profile_and_every_field_of_one_is_documented() -> None:
+    fields = {*PrinterProfile.model_fields, *SlicerAdvice.model_fields} - {"slicer"}
+    assert not undocumented(fields | set(available_profiles()), "printability.md")
+
+
+def test_every_command_and_every_option_is_documented() -> None:
+    from typer.main import get_command
+
+    from bellows_design.cli.commands import app
+
+    page = (ROOT / "docs/commands.md").read_text("utf-8")
+    commands = get_command(app).commands  # type: ignore[attr-defined]
+    options = {
+        name
+        for command in commands.values()
+        for parameter in command.params
+        for name in parameter.opts
+        if name.startswith("--")
+    }
+    assert "evaluate" in commands and "--accuracy" in options
+    assert not [name for name in commands if f"\n## `bellows {name}" not in page]
+    assert not undocumented(options, "commands.md")
+
+
+def test_the_design_on_the_page_is_one() -> None:
+    (block,) = re.findall(
+        r"```toml\n(.*?)```", (ROOT / "docs/design-file.md").read_text("utf-8"), re.DOTALL
+    )
+    assert Design.from_toml(block).name == "my_finger"
+
+
+def test_the_citation_names_the_packages_version() -> None:
+    from bellows_design import __version__
+
+    citation = (ROOT / "CITATION.cff").read_text("utf-8")
+    assert re.findall(r"^version: (.+)$", citation, re.MULTILINE) == [__version__]
+    assert re.findall(r"^license: (.+)$", citation, re.MULTILINE) == ["MIT"]
+    assert "doi: 10.7906/indecs.18.4.8" in citation
