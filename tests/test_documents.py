@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import json
 import re
+from collections.abc import Iterator
 from functools import cache
 from itertools import count
 from pathlib import Path
+from typing import Any
 
 import pytest
 
-from bellows_design.design import Design
+from bellows_design.design import Design, load_design
 from bellows_design.design.overrides import known_keys
 from bellows_design.materials import material_names
 from printers import PrinterProfile, SlicerAdvice, available_profiles
@@ -110,6 +113,31 @@ def test_every_material_and_every_field_of_one_is_documented() -> None:
 def test_every_profile_and_every_field_of_one_is_documented() -> None:
     fields = {*PrinterProfile.model_fields, *SlicerAdvice.model_fields} - {"slicer"}
     assert not undocumented(fields | set(available_profiles()), "printability.md")
+
+
+def test_every_rule_of_a_printer_is_documented() -> None:
+    from bellows_design.pipeline import build_part, check
+
+    design = load_design("finger")
+    rules = {rule.rule for rule in check(design, build_part(design)).rules}
+    assert "airtightness" in rules and not undocumented(rules, "printability.md")
+
+
+def test_every_field_of_a_manifest_is_documented() -> None:
+    manifest = json.loads((ROOT / "exports/finger/manifest.json").read_text("utf-8"))
+    for named_elsewhere in (manifest, manifest["evaluation"]):
+        for key in ("design", "files", "versions"):
+            named_elsewhere.pop(key, None)
+    assert not undocumented(set(keys_of(manifest)), "json.md")
+
+
+def keys_of(content: Any) -> Iterator[str]:
+    """Names of all fields of a JSON value and of those in it."""
+    if isinstance(content, dict):
+        yield from content
+    for inner in content.values() if isinstance(content, dict) else content:
+        if isinstance(inner, dict | list):
+            yield from keys_of(inner)
 
 
 def test_every_command_and_every_option_is_documented() -> None:

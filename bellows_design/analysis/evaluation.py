@@ -118,7 +118,7 @@ class Evaluation(LoadedState):
         return self.meshes[-1].size
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain values for JSON; the README says what they mean."""
+        """Plain values for JSON; docs/json.md says what they mean."""
         from bellows_design.versions import versions
 
         return {
