@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from bellows_design.materials.material import Material
-from solver.material.homogeneous import Reals
-from solver.material.stability import Constants, drucker_margin, shear_margin
+from solver.arrays import Reals
+from solver.material.stability import drucker_margin, shear_margin
 
 if TYPE_CHECKING:
     from solver import Solution
@@ -131,7 +131,7 @@ def strain_of(material: Material, logs: Reals) -> ReachedStrain:
 
 def _instability(material: Material, logs: Reals) -> Instability | None:
     """Where Drucker's or else Hill's inequality fails at the states that were reached."""
-    constants = Constants.of(material.mu, material.alpha, material.higher)
+    constants = material.law_constants()
     isochoric = logs - logs.mean(axis=1, keepdims=True)
     drucker = ~(drucker_margin(isochoric, constants) > 0)
     unstable = drucker | ~(shear_margin(isochoric, constants) > 0)

@@ -18,7 +18,7 @@ from bellows_design.errors import DesignError
 
 if TYPE_CHECKING:
     from bellows_design.geometry.named_solids import NamedSolid
-    from solver import Contact, Mesh, Ogden, Problem, SlenderAxis
+    from solver import Contact, Mesh, Problem, SlenderAxis
     from solver.adaptivity.refinement import Refinement
 
 FEWEST_BUBBLES = 3
@@ -112,7 +112,7 @@ def _cell(design: Design, mesh: Mesh, contacts: tuple[Contact, ...]) -> Problem:
     end = design.bellows.pitch / 2
     return Problem(
         mesh=mesh,
-        material=_material(design),
+        material=design.material.hyperelastic(),
         supports=Supports(symmetry={SYMMETRY: 1, BUBBLE_MIDDLE: 0}),
         pressurised=(CAVITY,),
         axis=SlenderAxis((0.0, end / 2, end)),
@@ -140,7 +140,7 @@ def _actuator(design: Design, mesh: Mesh, symmetry: dict[str, int]) -> Problem:
 
     return Problem(
         mesh=mesh,
-        material=_material(design),
+        material=design.material.hyperelastic(),
         supports=Supports(clamped=(ROOT,), symmetry=symmetry),
         pressurised=(CAVITY,),
         axis=_axis(design.bellows),
@@ -207,13 +207,6 @@ def thinnest_wall(design: Design) -> float:
 def sharp_edge_radius(design: Design) -> float:
     """How near to sharp outer edges no stress is reported, mm: a printed line rounds them."""
     return min(SMALLEST_FEATURE, thinnest_wall(design) / 4)
-
-
-def _material(design: Design) -> Ogden:
-    from solver import Ogden
-
-    material = design.material
-    return Ogden(mu=material.mu, alpha=material.alpha, higher=material.higher)
 
 
 def _axis(bellows: BellowsParameters) -> SlenderAxis:

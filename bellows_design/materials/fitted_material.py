@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from bellows_design.materials.fitting.fit_result import Fit
 from bellows_design.materials.fitting.measurements import Measurements
 from bellows_design.materials.laws import law_of_fit
@@ -36,14 +38,20 @@ def fitted_material(data: Measurements, fit: Fit, name: str, yield_strength: flo
     table = {
         "name": name,
         "model": law_of_fit(fit.model).name,
-        "mu": [float(f"{value:.9g}") for value in fit.mu],
-        "alpha": [float(f"{value:.9g}") for value in fit.alpha],
-        "higher": [float(f"{value:.9g}") for value in fit.higher],
+        **_constants(fit),
         "yield_strength": yield_strength,
         "valid_strain": _valid_strain(data),
         "source": _source(data, fit),
     }
     return checked_material(table)
+
+
+def _constants(fit: Fit) -> dict[str, Any]:
+    """As a material's table holds them."""
+    if law_of_fit(fit.model).constants:
+        return {constant.name: float(f"{constant.value:.9g}") for constant in fit.constants}
+    numbers = {"mu": fit.mu, "alpha": fit.alpha, "higher": fit.higher}
+    return {key: [float(f"{value:.9g}") for value in values] for key, values in numbers.items()}
 
 
 def _valid_strain(data: Measurements) -> list[float] | None:

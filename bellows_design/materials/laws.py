@@ -1,8 +1,8 @@
 """The material laws: what they are called, how they are written, and how they are fitted.
 
-This is the one table of them in this package, for materials, fits and the help of the command. All
-laws so far are cases of Ogden's with Yeoh's higher terms, hence have the constants μ, α and
-``higher``; see ``material.py``. A new law is one more row, and its fit a file in ``fitting/``.
+For materials, fits and the help of the command. The rows here are cases of the solver's Ogden law
+with Yeoh's higher terms, hence have the constants μ, α and ``higher``; see ``material.py``. All
+other laws come from the solver's table, ``solver.material.laws``, as they stand there.
 """
 
 from __future__ import annotations
@@ -10,6 +10,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
+
+from solver.material import laws as solver_laws
 
 if TYPE_CHECKING:
     from bellows_design.materials.fitting.fit_result import Fit
@@ -55,6 +57,7 @@ class Law:
         fits: Forms whose fits give a material of this law.
         softens: True if constants may be negative: such a material need only be stable over the
             range of its tests.
+        constants: Names of its own constants where it is no case of Ogden's law.
     """
 
     name: str
@@ -62,6 +65,7 @@ class Law:
     written: tuple[tuple[str, ...], ...] = ()
     fits: tuple[FitModel, ...] = ()
     softens: bool = False
+    constants: tuple[str, ...] = ()
 
 
 def _ogden(data: Measurements, problem: Weighted, model: FitModel) -> Fit:
@@ -74,6 +78,18 @@ def _yeoh(data: Measurements, problem: Weighted, model: FitModel) -> Fit:
     from bellows_design.materials.fitting.yeoh import fit_yeoh
 
     return fit_yeoh(data, problem, model)
+
+
+def _linear(data: Measurements, problem: Weighted, model: FitModel) -> Fit:
+    from bellows_design.materials.fitting.linear import fit_law
+
+    return fit_law(data, problem, model)
+
+
+def _of_solver(law: solver_laws.Law) -> Law:
+    """The row of a law of the solver's whose energy is linear in its constants."""
+    form = FitModel(law.name, (), _linear, higher=len(law.constants), automatic=False)
+    return Law(law.name, (), (law.constants,), (form,), softens=True, constants=law.constants)
 
 
 _ROWS = (
@@ -96,6 +112,7 @@ _ROWS = (
         (FitModel("yeoh", (2.0,), _yeoh, higher=2, automatic=False),),
         softens=True,
     ),
+    *(_of_solver(law) for law in solver_laws.LAWS if law.constants),
 )
 
 LAWS = {law.name: law for law in _ROWS}

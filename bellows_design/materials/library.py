@@ -10,6 +10,7 @@ from pydantic import ValidationError
 from bellows_design.errors import DesignError
 from bellows_design.files.atomic import replacing
 from bellows_design.files.toml_files import TomlLibrary
+from bellows_design.materials.laws import LAWS
 from bellows_design.materials.material import Material
 from bellows_design.validation.sentences import sentences
 
@@ -48,6 +49,14 @@ def checked_material(table: dict[str, Any]) -> Material:
         raise DesignError(*sentences(error, Material)) from None
 
 
+def written(material: Material) -> dict[str, Any]:
+    """The table of a material's file: constants of other laws than Ogden's by their names."""
+    table = material.model_dump(mode="json", exclude_none=True)
+    names = LAWS[material.model].constants
+    table |= dict(zip(names, table.pop("constants"), strict=True))
+    return {key: value for key, value in table.items() if value != []}
+
+
 def write_material(material: Material, path: Path) -> None:
     """Write ``material`` as TOML, in the form of the library's; completely or not at all.
 
@@ -56,8 +65,5 @@ def write_material(material: Material, path: Path) -> None:
     """
     import tomli_w
 
-    table = material.model_dump(mode="json", exclude_none=True)
-    if not material.higher:
-        del table["higher"]
     with replacing(path) as temporary:
-        temporary.write_text(tomli_w.dumps(table), "utf-8")
+        temporary.write_text(tomli_w.dumps(written(material)), "utf-8")

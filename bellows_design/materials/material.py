@@ -11,13 +11,14 @@ models are cases of it, and are written with their own constants:
     model = "mooney-rivlin"  c10, c01             μ = (2 c10, 2 c01), α = (2, −2)
     model = "yeoh"           c10, c20, c30        μ = 2 c10, α = 2, higher = (c20, c30)
 
-The laws themselves stand in ``laws.py``.
+Laws that are no case of it have ``constants`` of their own names instead; they may be of either
+sign. All laws stand in ``laws.py``.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Annotated, Any, Self
+from typing import TYPE_CHECKING, Annotated, Any, Self
 
 from pydantic import Field, field_validator, model_validator
 from pydantic_core import PydanticKnownError
@@ -25,6 +26,11 @@ from pydantic_core import PydanticKnownError
 from bellows_design.materials.laws import LAWS, OWN_CONSTANTS, Law
 from bellows_design.validation.parameters import Parameters, require
 from bellows_design.validation.quoting import quoted
+from solver.material.laws import law as solver_law
+
+if TYPE_CHECKING:
+    from solver.material.constants import Constants
+    from solver.material.law import Hyperelastic
 
 SOFTEST, STIFFEST = 0.003, 300.0
 """MPa. Initial shear moduli from the softest silicones to the hardest TPU; more is a unit."""
@@ -41,8 +47,8 @@ class Material(Parameters):
 
     Terms of mixed sign can be stable over the range they were fitted in, but a design may leave
     that range anywhere on its load path; they are refused rather than trusted. Yeoh's higher terms
-    may be negative as long as the three tests are stable over ``valid_strain``, or everywhere
-    without one; results are checked against it.
+    and the constants of other laws may be negative as long as the three tests are stable over
+    ``valid_strain``, or everywhere without one; results are checked against it.
 
     Attributes:
         name: What the material is called; one line of text.
@@ -50,6 +56,7 @@ class Material(Parameters):
         mu: μᵢ of Abaqus's form, MPa.
         alpha: Exponents αᵢ, one for each μᵢ.
         higher: C₂₀, C₃₀, … of Yeoh's model, MPa.
+        constants: Those of a law that is no case of Ogden's, in the order of ``laws.LAWS``, MPa.
         yield_strength: Highest admissible von Mises stress unless the design limits it, MPa.
         elongation_at_break: Nominal strain at break in a tensile test, %.
         valid_strain: Lowest and highest principal nominal strain of the tests (fractions).
@@ -63,16 +70,20 @@ class Material(Parameters):
     name: str = Field(default="custom", min_length=1, max_length=64)
     model: str = Field(default="ogden", description="name of the material's law")
     mu: tuple[float, ...] = Field(
-        min_length=1,
         max_length=6,
         description="μᵢ of Abaqus's form",
         json_schema_extra={"unit": "MPa"},
     )
-    alpha: tuple[float, ...] = Field(min_length=1, max_length=6, description="exponents αᵢ")
+    alpha: tuple[float, ...] = Field(max_length=6, description="exponents αᵢ")
     higher: tuple[Coefficient, ...] = Field(
         default=(),
         max_length=MOST_HIGHER,
         description="C₂₀, C₃₀, … of Yeoh's model",
+        json_schema_extra={"unit": "MPa"},
+    )
+    constants: tuple[Coefficient, ...] = Field(
+        default=(),
+        description="constants of a law that is no case of Ogden's",
         json_schema_extra={"unit": "MPa"},
     )
     yield_strength: float = Field(ge=0.01, le=200, json_schema_extra={"unit": "MPa"})
@@ -99,7 +110,7 @@ class Material(Parameters):
             raise PydanticKnownError("literal_error", {"expected": expected})
         return model
 
-    @field_validator("mu", "alpha", "higher", "valid_strain", mode="before")
+    @field_validator("mu", "alpha", "higher", "constants", "valid_strain", mode="before")
     @classmethod
     def _list_is_tuple(cls, value: Any) -> Any:
         return tuple(value) if isinstance(value, list) else value
@@ -122,18 +133,45 @@ class Material(Parameters):
 
     @model_validator(mode="after")
     def _is_stable(self) -> Self:
-        for check in (_check_terms, _check_modulus, _check_exponents, _check_higher):
+        for check in (_check_terms, _check_modulus, _check_exponents, _check_stability):
             check(self)
         return self
 
     @property
     def initial_shear_modulus(self) -> float:
-        """Shear modulus of the undeformed material, MPa: Σ μᵢ."""
-        return sum(self.mu)
+        """Shear modulus of the undeformed material, MPa: Σ μᵢ of Ogden's law."""
+        return self.hyperelastic().shear_modulus if self.constants else sum(self.mu)
+
+    def hyperelastic(self) -> Hyperelastic:
+        """This material as the solver takes it.
+
+        Raises:
+            SolverError: The solver takes no such constants.
+        """
+        if self.constants:
+            material: Hyperelastic = solver_law(self.model).implementation.MATERIAL(*self.constants)
+            return material
+        from solver import Ogden
+
+        return Ogden(mu=self.mu, alpha=self.alpha, higher=self.higher)
+
+    def law_constants(self) -> Constants:
+        """Law and constants, for its homogeneous states and its stability."""
+        return self.hyperelastic().constants
 
 
 def _check_terms(material: Material) -> None:
-    mu, alpha = material.mu, material.alpha
+    mu, alpha, own = material.mu, material.alpha, LAWS[material.model].constants
+    require(
+        len(material.constants) == len(own),
+        f"material.constants has {len(material.constants)} numbers but the model "
+        f"{quoted(material.model)} has {len(own)}{': ' * bool(own)}{', '.join(own)}",
+    )
+    require(
+        bool(mu) != bool(own),
+        f"material.mu has {len(mu)} numbers but the model {quoted(material.model)} "
+        f"{'has none' if own else 'needs at least one'}",
+    )
     require(
         len(mu) == len(alpha),
         f"material.mu has {len(mu)} and material.alpha {len(alpha)} numbers; each term needs one "
@@ -169,34 +207,38 @@ def _check_exponents(material: Material) -> None:
     )
 
 
-def _check_higher(material: Material) -> None:
-    if not material.higher:
+def _check_stability(material: Material) -> None:
+    """Where constants may be negative. μ > 0 alone is stable at every strain."""
+    if not (material.higher or material.constants):
         return
     from solver.material.stability import HIGHEST, LOWEST, stability
 
     low, high = material.valid_strain or (LOWEST - 1, HIGHEST - 1)
-    found = stability(material.mu, material.alpha, material.higher)
+    found = stability(material.law_constants())
     worst = min(found.ranges, key=lambda each: each.highest / each.lowest)
+    name = "higher" if material.higher else "constants"
     require(
         found.covers(max(1 + low, LOWEST), min(1 + high, HIGHEST)),
-        f"material.higher is {list(material.higher)} MPa, with which {worst.mode} tests are "
-        f"stable only at stretches from {worst.lowest:.3g} to {worst.highest:.3g}, less than "
-        "valid_strain says (all stretches, without one)",
+        f"material.{name} is {list(material.higher or material.constants)} MPa, with which "
+        f"{worst.mode} tests are stable only at stretches from {worst.lowest:.3g} to "
+        f"{worst.highest:.3g}, less than valid_strain says (all stretches, without one)",
     )
 
 
 def _translated(table: dict[str, Any]) -> dict[str, Any]:
-    """The same material with μ, α and ``higher`` instead of the constants of its own law."""
+    """The same material with the fields of ``Material`` instead of constants by their names."""
     given = [key for key in OWN_CONSTANTS if key in table]
     if not given:
         return table
-    for key in ("mu", "alpha", "higher"):
+    for key in ("mu", "alpha", "higher", "constants"):
         require(
             key not in table, f"material.{given[0]} and material.{key} say the same thing twice"
         )
     law, form = _law_and_form(str(table.get("model", "ogden")), given)
     rest = {key: value for key, value in table.items() if key not in given}
     values = [_constant(key, table[key]) for key in form]
+    if law.constants:
+        return rest | {"mu": (), "alpha": (), "constants": tuple(values)}
     count = len(law.exponents)
     mu, higher = tuple(2 * value for value in values[:count]), tuple(values[count:])
     return rest | {"mu": mu, "alpha": law.exponents, "higher": higher}

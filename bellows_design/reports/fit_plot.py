@@ -39,7 +39,7 @@ def _draw_stress(axes: Axes, data: Measurements, fit: Fit) -> None:
         axes.plot(stretch, stress, "o", markersize=4, alpha=0.5, color=colour)
         axes.plot(
             line,
-            nominal_stress(mode, line, fit.mu, fit.alpha, fit.higher),
+            nominal_stress(mode, line, fit.law),
             style,
             color=colour,
             label=label,
@@ -57,7 +57,7 @@ def _draw_errors(axes: Axes, data: Measurements, fit: Fit) -> None:
     for (name, mode), colour in zip(MODES.items(), COLOURS, strict=False):
         stretch, stress = data.of(name)
         if stretch.size:
-            error = nominal_stress(mode, stretch, fit.mu, fit.alpha, fit.higher) - stress
+            error = nominal_stress(mode, stretch, fit.law) - stress
             axes.plot(stretch, error, "o", markersize=4, color=colour, label=name)
     axes.axhline(0, color="black", linewidth=0.8)
     axes.set(xlabel="stretch", ylabel="model less measurement, MPa")

@@ -9,7 +9,7 @@ The module of a law holds
   are ``gaps`` (3,): exact where stretches are equal. Only their deviatoric parts count: each s_i
   may have the same number added, and dW/de_i may be that of any extension of W to e that do not
   sum to 0;
-- ``MATERIAL``: the class of its materials, a ``Hyperelastic``.
+- ``MATERIAL``: the class of its materials, a ``Hyperelastic``, made of the law's constants.
 
 This file itself imports no compiled code.
 """
@@ -23,10 +23,16 @@ from types import ModuleType
 
 @dataclass(frozen=True)
 class Law:
-    """A row: the law's ``name`` in files, and the ``module`` beside this one that implements it."""
+    """A row: the law's ``name`` in files, and the ``module`` beside this one that implements it.
+
+    ``constants``: their names in files. The energy is linear in them, in MPa; they may be of either
+    sign, and what remains stable is asked of the law. Ogden's, of any number and not linear, have
+    no such names.
+    """
 
     name: str
     module: str
+    constants: tuple[str, ...] = ()
 
     @property
     def implementation(self) -> ModuleType:
@@ -37,7 +43,12 @@ class Law:
 LAWS = (Law("ogden", "ogden"),)
 
 
+def law(name: str) -> Law:
+    """The law with that name. Raises ``KeyError`` without one."""
+    return LAWS[number_of(name)]
+
+
 def number_of(name: str) -> int:
-    """Place of a law in the table. Raises ``KeyError`` for an unknown name."""
-    numbers = {law.name: number for number, law in enumerate(LAWS)}
+    """Place of a law in the table. Raises ``KeyError`` without one of that name."""
+    numbers = {row.name: number for number, row in enumerate(LAWS)}
     return numbers[name]

@@ -10,7 +10,9 @@ import numpy as np
 
 from bellows_design.materials.fitting.measurements import Measurements
 from bellows_design.materials.fitting.weighted import Weighted
-from solver.material.homogeneous import MODES, Reals, nominal_stress
+from solver.arrays import Reals
+from solver.material.constants import Constants
+from solver.material.homogeneous import MODES, nominal_stress
 from solver.material.stability import Stability, stability
 
 VANISHED = 1e-4
@@ -71,15 +73,17 @@ class Misfit:
 class Estimate:
     """Constants as a law's own fit finds them, before they are compared with the measurements.
 
-    ``mu`` and ``higher`` in MPa; ``squares`` is the sum of squared relative errors; ``vanished``
-    if a term adds nothing; ``ambiguity`` see ``Fit.unique``.
+    ``law``: the law with its constants; ``squares`` is the sum of squared relative errors;
+    ``vanished`` if a term adds nothing; ``mu`` (MPa), ``alpha`` and ``higher`` (MPa) of a case of
+    Ogden's law; ``ambiguity`` see ``Fit.unique``.
     """
 
-    mu: tuple[float, ...]
-    alpha: tuple[float, ...]
+    law: Constants
     constants: tuple[Constant, ...]
     squares: float
     vanished: bool
+    mu: tuple[float, ...] = ()
+    alpha: tuple[float, ...] = ()
     higher: tuple[float, ...] = ()
     ambiguity: float = 0.0
 
@@ -88,13 +92,15 @@ class Estimate:
 class Fit:
     """A fitted model.
 
-    ``mu`` (MPa) of the terms, in falling order, their ``alpha``, and ``higher`` of Yeoh's (MPa);
+    ``law`` with its constants; of a case of Ogden's law ``mu`` (MPa) of the terms, in falling
+    order, their ``alpha``, and ``higher`` of Yeoh's (MPa); the ``constants`` with their intervals;
     the number of ``points``, the coefficient of determination, the ``relative_error`` (root mean
     square, a fraction), the largest error, the corrected information criterion, whether a term
     adds nothing, how far equally good fits differ, and where the material is stable.
     """
 
     model: str
+    law: Constants
     mu: tuple[float, ...]
     alpha: tuple[float, ...]
     constants: tuple[Constant, ...]
@@ -148,6 +154,7 @@ def judged(data: Measurements, problem: Weighted, model: str, found: Estimate) -
     free = sum(not constant.fixed for constant in found.constants)
     return Fit(
         model=model,
+        law=found.law,
         mu=found.mu,
         alpha=found.alpha,
         constants=found.constants,
@@ -158,7 +165,7 @@ def judged(data: Measurements, problem: Weighted, model: str, found: Estimate) -
         aicc=_aicc(relative, problem.informative, free + 1),
         vanished=found.vanished,
         ambiguity=found.ambiguity,
-        stability=stability(found.mu, found.alpha, found.higher),
+        stability=stability(found.law),
         higher=found.higher,
     )
 
@@ -175,8 +182,7 @@ def _difference(data: Measurements, found: Estimate) -> Reals:
     result = -data.stress
     for number, mode in enumerate(MODES.values()):
         chosen = data.mode == number
-        stretch = data.stretch[chosen]
-        result[chosen] += nominal_stress(mode, stretch, found.mu, found.alpha, found.higher)
+        result[chosen] += nominal_stress(mode, data.stretch[chosen], found.law)
     return result
 
 

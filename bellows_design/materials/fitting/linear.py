@@ -6,14 +6,30 @@ Intervals are Student's, at 95 %, exact for Gaussian errors.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bellows_design.materials.fitting.fit_result import VANISHED, Constant, student_width
+from bellows_design.materials.fitting.fit_result import (
+    VANISHED,
+    Constant,
+    Estimate,
+    Fit,
+    judged,
+    student_width,
+)
+from bellows_design.materials.fitting.measurements import Measurements
 from bellows_design.materials.fitting.weighted import Weighted
-from solver.material.homogeneous import Reals
+from solver.arrays import Reals
+from solver.material.constants import Constants
+from solver.material.homogeneous import MODES, nominal_stress
+from solver.material.laws import law as solver_law
+from solver.material.laws import number_of
+
+if TYPE_CHECKING:
+    from bellows_design.materials.laws import FitModel
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,6 +40,32 @@ class LinearFit:
     constants: tuple[Constant, ...]
     squares: float
     vanished: bool
+
+
+def fit_law(data: Measurements, problem: Weighted, model: FitModel) -> Fit:
+    """Fit the constants, of either sign, of the solver's law with the model's name."""
+    names, number = solver_law(model.name).constants, number_of(model.name)
+    columns = columns_of(data, problem, lambda values: Constants(number, values), len(names))
+    found = fit_linear(problem, columns, names, [-np.inf] * len(names))
+    law = Constants(number, found.values)
+    return judged(
+        data, problem, model.name, Estimate(law, found.constants, found.squares, found.vanished)
+    )
+
+
+def columns_of(
+    data: Measurements, problem: Weighted, law: Callable[[Reals], Constants], count: int
+) -> Reals:
+    """(n, count) weighted stress per MPa of each constant of a law that is linear in them.
+
+    ``law`` turns constants (count,) into those of the solver.
+    """
+    columns = np.empty((data.stress.size, count))
+    for column, unit in enumerate(np.eye(count)):
+        for number, mode in enumerate(MODES.values()):
+            chosen = data.mode == number
+            columns[chosen, column] = nominal_stress(mode, data.stretch[chosen], law(unit))
+    return problem.weight[:, None] * columns
 
 
 def fit_linear(

@@ -22,7 +22,8 @@ from numpy.typing import NDArray
 
 from bellows_design.errors import DesignError
 from bellows_design.validation.quoting import did_you_mean, quoted, quoted_path
-from solver.material.homogeneous import MODES, Reals
+from solver.arrays import Reals
+from solver.material.homogeneous import MODES
 
 LARGEST_FILE = 20_000_000
 """Bytes."""

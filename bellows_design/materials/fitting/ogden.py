@@ -30,7 +30,9 @@ from bellows_design.materials.fitting.fit_result import (
 )
 from bellows_design.materials.fitting.measurements import Measurements
 from bellows_design.materials.fitting.weighted import FLOOR, Weighted
-from solver.material.homogeneous import MODES, Reals, nominal_stress
+from solver.arrays import Reals
+from solver.material.homogeneous import MODES, nominal_stress
+from solver.material.ogden import packed
 
 if TYPE_CHECKING:
     from bellows_design.materials.laws import FitModel
@@ -89,7 +91,7 @@ def _distance(problem: Weighted, ours: tuple[Reals, Reals], other: tuple[Reals, 
     stretch = np.exp(line[line != 0])
     parts = []
     for mode in MODES.values():
-        mine, theirs = (nominal_stress(mode, stretch, *each) for each in (ours, other))
+        mine, theirs = (nominal_stress(mode, stretch, packed(*each)) for each in (ours, other))
         floor = np.maximum(np.abs(mine), FLOOR * np.abs(mine).max())
         parts.append(float((np.abs(mine - theirs) / floor).max()))
     return max(parts)
@@ -154,6 +156,7 @@ def _estimate(
     errors = _standard_errors(problem, mu, alpha, fixed, squares)
     freedom = problem.informative - mu.size - int((~fixed).sum())
     return Estimate(
+        law=packed(mu * problem.unit, alpha),
         mu=tuple((mu * problem.unit).tolist()),
         alpha=tuple(alpha.tolist()),
         constants=_constants(mu * problem.unit, alpha, fixed, errors, freedom),

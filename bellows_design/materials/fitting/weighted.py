@@ -7,7 +7,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from bellows_design.materials.fitting.measurements import Measurements
-from solver.material.homogeneous import MODES, Reals, unit_slopes, unit_stresses
+from bellows_design.materials.fitting.ogden_terms import unit_slopes, unit_stresses
+from solver.arrays import Reals
+from solver.material.homogeneous import MODES
 
 FLOOR = 0.05
 """Part of a test's largest stress below which errors count against that part."""

@@ -21,6 +21,7 @@ from bellows_design.files.json_files import json_text
 from bellows_design.materials.library import write_material
 from bellows_design.materials.material import Material
 from solver.material.homogeneous import MODES, nominal_stress
+from solver.material.ogden import packed
 
 CONSTANTS = (3.2778, 0.19825), (-0.0054, 3.05)
 
@@ -32,7 +33,7 @@ def data(tmp_path: Path) -> Path:
     rows = [
         f"{name};{x:.17g};{p:.17g}"
         for name, mode in MODES.items()
-        for x, p in zip(stretch, nominal_stress(mode, stretch, *CONSTANTS), strict=True)
+        for x, p in zip(stretch, nominal_stress(mode, stretch, packed(*CONSTANTS)), strict=True)
     ]
     path = tmp_path / "tpu.csv"
     path.write_text("# made up\nmode;stretch;stress_mpa\n" + "\n".join(rows), "utf-8")
@@ -109,7 +110,7 @@ def test_files_are_refused_before_anything_is_read(tmp_path: Path, name: str, wo
 
 def test_a_fit_that_is_no_material_leaves_no_file(data: Path, tmp_path: Path) -> None:
     stretch = np.linspace(1.1, 3, 20)
-    stress = nominal_stress(MODES["uniaxial"], stretch, (1.0,), (2.0,))
+    stress = nominal_stress(MODES["uniaxial"], stretch, packed((1.0,), (2.0,)))
     rows = "\n".join(f"{x},{p}" for x, p in zip(stretch, stress, strict=True))
     path = tmp_path / "neo.csv"
     path.write_text("stretch,stress_mpa\n" + rows, "utf-8")
@@ -164,7 +165,7 @@ def test_yeoh_becomes_a_material_if_it_is_stable_over_the_tests(tmp_path: Path) 
     """One that softens within the tests is refused; one that does only beyond them is not."""
     for top, status in ((1.25, 0), (1.8, 1)):
         line = np.linspace(0.9, top, 30)
-        stress = nominal_stress(MODES["uniaxial"], line, (0.8,), (2.0,), (-0.12, 0.002))
+        stress = nominal_stress(MODES["uniaxial"], line, packed((0.8,), (2.0,), (-0.12, 0.002)))
         rows = "\n".join(f"{x},{p}" for x, p in zip(line, stress, strict=True))
         path, output = tmp_path / "soft.csv", tmp_path / f"soft{status}.toml"
         path.write_text("stretch,stress_mpa\n" + rows, "utf-8")

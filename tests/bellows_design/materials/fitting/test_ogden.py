@@ -20,6 +20,7 @@ from bellows_design.materials.fitting.measurements import (
 from bellows_design.materials.fitting.selection import fit, fit_model
 from bellows_design.materials.laws import FIT_MODELS
 from solver.material.homogeneous import MODES, nominal_stress
+from solver.material.ogden import packed
 
 MEASURED = Path(__file__).parents[2] / "data/treloar_1944.csv"
 POINTS = Path(__file__).parents[3] / "solver/data/ogden_points.json"
@@ -37,7 +38,9 @@ def made(
 ) -> Measurements:
     """Measurements of a known material, with relative noise of that standard deviation."""
     random = np.random.default_rng(seed)
-    stress = np.concatenate([nominal_stress(MODES[m], stretches, *constants) for m in modes])
+    stress = np.concatenate(
+        [nominal_stress(MODES[m], stretches, packed(*constants)) for m in modes]
+    )
     numbers = np.repeat([list(MODES).index(mode) for mode in modes], stretches.size)
     factors = 1 + noise * random.standard_normal(stress.size)
     return Measurements("made.csv", np.tile(stretches, len(modes)), stress * factors, numbers)
@@ -263,7 +266,7 @@ YEOH = ((0.8,), (2.0,), (-0.03, 0.002))
 
 def made_of_yeoh(noise: float = 0.0, seed: int = 0) -> Measurements:
     line = np.linspace(0.6, 3.0, 40)
-    stress = np.concatenate([nominal_stress(mode, line, *YEOH) for mode in MODES.values()])
+    stress = np.concatenate([nominal_stress(mode, line, packed(*YEOH)) for mode in MODES.values()])
     factors = 1 + noise * np.random.default_rng(seed).standard_normal(stress.size)
     return Measurements("made", np.tile(line, 3), stress * factors, np.repeat([0, 1, 2], 40))
 
