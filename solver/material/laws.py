@@ -40,7 +40,10 @@ class Law:
         return import_module(f"solver.material.{self.module}")
 
 
-LAWS = (Law("ogden", "ogden"),)
+LAWS = (
+    Law("ogden", "ogden"),
+    Law("mooney-rivlin-5", "mooney_rivlin", ("c10", "c01", "c20", "c11", "c02")),
+)
 
 
 def law(name: str) -> Law:
