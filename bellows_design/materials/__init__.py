@@ -8,9 +8,9 @@ from bellows_design.lazy_names import imported_when_asked_for
 
 if TYPE_CHECKING:
     from bellows_design.materials.fitting.measurements import Measurements, load_measurements
-    from bellows_design.materials.fitting.selection import fit
     from bellows_design.materials.library import load_material, material_names, write_material
     from bellows_design.materials.material import Material
+    from bellows_design.materials.selection import fit
 
 __all__ = [
     "Material",
@@ -26,7 +26,7 @@ __getattr__ = imported_when_asked_for(
     __name__,
     {
         "fitting.measurements": ("Measurements", "load_measurements"),
-        "fitting.selection": ("fit",),
+        "selection": ("fit",),
         "library": ("load_material", "material_names", "write_material"),
         "material": ("Material",),
     },

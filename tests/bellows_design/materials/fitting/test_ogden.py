@@ -17,8 +17,8 @@ from bellows_design.materials.fitting.measurements import (
     load_measurements,
     parse_measurements,
 )
-from bellows_design.materials.fitting.selection import fit, fit_model
 from bellows_design.materials.laws import FIT_MODELS
+from bellows_design.materials.selection import fit, fit_model
 from solver.material.homogeneous import MODES, nominal_stress
 from solver.material.ogden import packed
 
