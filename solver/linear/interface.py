@@ -15,10 +15,11 @@ class LinearSolver(Protocol):
     side. ``factorize`` raises ``SingularMatrix`` where the factorization breaks down.
     ``negative_pivots`` counts the negative eigenvalues of the last matrix; None where unknown.
     ``odd_negative`` says whether their number is odd, which may be known where it is not.
+    ``name`` is what a result says it was solved with.
     """
 
-    name: str
-
+    @property
+    def name(self) -> str: ...
     @property
     def negative_pivots(self) -> int | None: ...
     @property

@@ -41,7 +41,11 @@ class Scaled:
 
     def __init__(self, solver: LinearSolver, scale: Reals) -> None:
         self._solver, self._scale, self._products = solver, scale, np.zeros(0)
-        self.name = solver.name
+
+    @property
+    def name(self) -> str:
+        """As for A; a fallback changes it on the way."""
+        return self._solver.name
 
     @property
     def negative_pivots(self) -> int | None:

@@ -15,6 +15,7 @@ import os
 import subprocess
 import sys
 from collections.abc import Callable, Iterable, Iterator
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -26,13 +27,15 @@ MODES: dict[str, dict[str, str]] = {
     "one thread": ONE_THREAD,
     "COMPATIBLE": {"MKL_CBWR": "COMPATIBLE"},
     "AVX2": {"MKL_CBWR": "AVX2"},
-    "SuperLU": {"WITHOUT_MKL": "1"},
+    "feral": {"HIDDEN": "without_mkl"},
+    "SuperLU": {"HIDDEN": "without_mkl without_feral"},
 }
 COUNTS = ("load_steps", "refused_steps", "factorizations")
 
-if __name__ == "__main__" and os.environ.get("WITHOUT_MKL"):
+if __name__ == "__main__" and "HIDDEN" in os.environ:
     sys.path.insert(0, str(TESTS / "support"))
-    import without_mkl  # noqa: F401
+    for plugin in os.environ["HIDDEN"].split():
+        import_module(plugin)
 
 
 def halves() -> Iterator[tuple[str, Callable[[], Iterable[Any]]]]:

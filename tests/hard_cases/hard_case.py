@@ -27,7 +27,7 @@ class Finding:
 class HardCase:
     """One row of ``docs/hard-cases.md``.
 
-    ``slow`` cases run with ``pytest -m slow``; those that need ``inertia`` are for PARDISO alone.
+    ``slow`` cases run with ``pytest -m slow``; those that need ``inertia`` are not for SuperLU.
     ``missing``: the good behaviour that is not there yet; the test is then expected to fail,
     strictly.
     """

@@ -1,6 +1,8 @@
-"""Importing this hides MKL, as on machines that Intel ships none for: SuperLU factorizes.
+"""Importing this hides MKL, as on machines that Intel ships none for: feral factorizes.
 
 PYTHONPATH=tests/support pytest -p without_mkl
+
+With ``-p without_mkl -p without_feral`` it is SuperLU that does.
 """
 
 from __future__ import annotations
