@@ -65,7 +65,7 @@ def systems() -> Iterator[System]:
     """From the smallest to the largest."""
     from bellows_design.analysis.models import HALF, UNIT_CELL
     from bellows_design.benchmark.study import evaluations
-    from bellows_design.design.design import load_design
+    from bellows_design.design.shipped import load_design
     from solver.assembly.assembly import Assembly
 
     design = load_design("prototype_1")
