@@ -10,6 +10,7 @@ from bellows_design import __version__
 DEPENDENCIES = (
     "cadquery",
     "cadquery-ocp",
+    "feral-solver",
     "gmsh",
     "manifold3d",
     "meshio",

@@ -64,16 +64,16 @@ class Times:
 def systems() -> Iterator[System]:
     """From the smallest to the largest."""
     from bellows_design.analysis.models import HALF, UNIT_CELL
-    from bellows_design.benchmark.study import evaluations
+    from bellows_design.benchmark.study import computations
     from bellows_design.design.shipped import load_design
     from solver.assembly.assembly import Assembly
 
     design = load_design("prototype_1")
     for model, meshes in ((UNIT_CELL, (2,)), (HALF, (1, 2))):
-        for number, evaluation in enumerate(evaluations(design, model, "", max(meshes)), start=1):
+        for number, found in enumerate(computations(design, model, "", max(meshes)), start=1):
             if number not in meshes:
                 continue
-            end = evaluation.finest
+            end = found.finest
             there = Assembly(end.problem).evaluate(end.state, end.pressure)
             name = f"{model.name}, mesh {number}"
             vertices = len(end.problem.mesh.vertices)
@@ -127,26 +127,25 @@ def in_a_process(name: str, file: Path, environment: dict[str, str] | None = Non
 
 
 def here(name: str, file: Path) -> dict[str, Any]:
-    """Memory a factorization adds, seconds of the second one, and the solution's bits."""
+    """Memory a factorization holds, seconds of the second one, and the solution's bits."""
     data = np.load(file)
     pattern, values = Pattern(data["indptr"], data["indices"]), data["values"]
     solver = linear_solver(name)
-    before = peak_memory()
+    before = resident()
     solver.analyze(pattern)
     for _ in range(2):
         start = time.perf_counter()
         solver.factorize(values)
         seconds = time.perf_counter() - start
     bits = hashlib.sha256(solver.solve(data["force"]).tobytes()).hexdigest()
-    return {"memory_mib": peak_memory() - before, "seconds": seconds, "bits": bits}
+    return {"memory_mib": resident() - before, "seconds": seconds, "bits": bits}
 
 
-def peak_memory() -> float:
-    """Of this process so far, MiB."""
-    import resource
+def resident() -> float:
+    """Memory this process holds, MiB."""
+    import psutil
 
-    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    return peak / 2**20 if sys.platform == "darwin" else peak / 2**10
+    return psutil.Process().memory_info().rss / 2**20
 
 
 def repeatability(system: System, file: Path) -> str:
