@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from bellows_design.lazy_names import imported_when_asked_for
+from solver.lazy_names import imported_when_asked_for
 
 if TYPE_CHECKING:
     from bellows_design.materials.fitting.measurements import Measurements, load_measurements

@@ -28,7 +28,7 @@ GENTLE = {signal.SIGINT: 130, signal.SIGTERM: 143, signal.SIGHUP: 129}
 CSV = "stretch,stress_mpa\n" + "".join(f"{1 + 0.1 * i},{0.2 * i:g}\n" for i in range(1, 9))
 FIT = ("fit", "data.csv", "--model", "neo-hooke", "-o", "mine.toml", "--yield-strength", "4")
 
-EARLY = {"__init__", "__main__", "early_signals", "lazy_names"}
+EARLY = {"__init__", "__main__", "early_signals"}
 """Modules that are imported before signals are handled."""
 
 STRUCK_WHILE_WRITING = """
