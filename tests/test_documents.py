@@ -33,6 +33,10 @@ each_document = pytest.mark.parametrize(
 )
 
 
+ENVIRONMENT = ".venv/"
+"""What it holds stands in no repository."""
+
+
 @cache
 def text_of(document: Path) -> str:
     """A document without its blocks of code."""
@@ -73,7 +77,8 @@ def test_every_path_named_in_code_exists(document: Path) -> None:
     missing = []
     for code in CODE.findall(text_of(document)):
         for word in code.split():
-            if PATH.fullmatch(word) and not (exists(ROOT, word) or exists(document.parent, word)):
+            known = word.startswith(ENVIRONMENT) or exists(ROOT, word)
+            if PATH.fullmatch(word) and not (known or exists(document.parent, word)):
                 missing.append(word)
     assert not missing
 

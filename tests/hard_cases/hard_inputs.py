@@ -36,7 +36,7 @@ from solver import (
 )
 from solver.assembly.assembly import Assembly, Equilibrium
 from solver.assembly.state import State
-from solver.nonlinear.newton import Newton
+from solver.nonlinear.linear_system import LinearSystem
 
 BOX = box_mesh((2, 1, 1))
 NAN, INF = float("nan"), float("inf")
@@ -221,14 +221,14 @@ def _spoilt(call: int, spoil: Callable[[Equilibrium], Equilibrium]) -> patch:
 
 def _spoilt_solution(call: int) -> patch:
     """The ``call``-th correction comes out as NaN."""
-    solve_linear, calls = Newton.solve, []
+    solve_linear, calls = LinearSystem.increment, []
 
-    def spoilt(self: Newton, right_hand_side: Points) -> State:
+    def spoilt(self: LinearSystem, right_hand_side: Points) -> State:
         calls.append(1)
         found = solve_linear(self, right_hand_side)
         return found.scaled(NAN) if len(calls) == call else found
 
-    return patch.object(Newton, "solve", spoilt)
+    return patch.object(LinearSystem, "increment", spoilt)
 
 
 def impossible_motion() -> tuple[Finding, ...]:
