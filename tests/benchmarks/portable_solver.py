@@ -16,7 +16,7 @@ import os
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 from statistics import median
@@ -26,6 +26,7 @@ from typing import Any
 import numpy as np
 
 from solver.arrays import Reals
+from solver.linear.feral import FERAL_OPTIONS
 from solver.linear.interface import LinearSolver
 from solver.linear.solvers import linear_solver
 from solver.linear.sparsity import Pattern
@@ -54,11 +55,10 @@ class System:
 
 @dataclass
 class Times:
-    """Seconds of one solver on one system, round by round; the first includes the ordering."""
+    """Seconds of one solver on one system, round by round."""
 
     factorization: list[float] = field(default_factory=list)
     solve: list[float] = field(default_factory=list)
-    analysis: float = 0.0
 
 
 def systems() -> Iterator[System]:
@@ -81,41 +81,65 @@ def systems() -> Iterator[System]:
 
 
 def timed(solvers: dict[str, LinearSolver], system: System, rounds: int) -> dict[str, Times]:
-    """The solvers in turn, so that all of them share what else the machine does."""
+    """The solvers in turn, so that all of them share what else the machine does.
+
+    The first round, in which feral orders, does not count; SuperLU is in the second one only.
+    """
     found = {name: Times() for name in solvers}
-    for name, solver in solvers.items():
-        start = time.perf_counter()
-        solver.analyze(system.pattern)
-        found[name].analysis = time.perf_counter() - start
-    for _ in range(rounds + 1):
-        for name, solver in solvers.items():
+    for number in range(rounds + 1):
+        for name in solvers if number < 2 else NAMES[:2]:
             start = time.perf_counter()
-            solver.factorize(system.values)
+            solvers[name].factorize(system.values)
             middle = time.perf_counter()
-            solver.solve(system.force)
+            solvers[name].solve(system.force)
             found[name].factorization.append(middle - start)
             found[name].solve.append(time.perf_counter() - middle)
     return found
 
 
+def ordering_seconds(name: str, system: System, rounds: int) -> float | None:
+    """Median seconds of the analysis of a pattern; None where every factorization repeats it."""
+    pattern = system.pattern
+    if name == "superlu":
+        return None
+    if name == "pardiso":
+        solver = linear_solver(name)
+        return median(seconds(lambda: solver.analyze(pattern)) for _ in range(rounds))
+    import feral
+
+    pointer, rows = (numbers.astype(np.int64) for numbers in (pattern.indptr, pattern.indices))
+    matrix = feral.CscMatrix(len(pointer) - 1, pointer, rows, system.values)
+    used = FERAL_OPTIONS["ordering"]
+    return median(seconds(lambda: feral.analyze(matrix, ordering=used)) for _ in range(rounds))
+
+
+def seconds(run: Callable[[], object]) -> float:
+    """How long ``run`` takes."""
+    start = time.perf_counter()
+    run()
+    return time.perf_counter() - start
+
+
 def rows(system: System, rounds: int, file: Path) -> Iterator[str]:
     """One line a solver."""
     solvers = {name: linear_solver(name) for name in NAMES}
+    for solver in solvers.values():
+        solver.analyze(system.pattern)
     found = timed(solvers, system, rounds)
     expected = solvers["pardiso"].solve(system.force)
     usual = median(found["pardiso"].factorization[1:])
     for name, solver in solvers.items():
-        times = found[name]
-        factorization = median(times.factorization[1:])
-        ordering = times.analysis + max(times.factorization[0] - factorization, 0.0)
+        ordering = ordering_seconds(name, system, rounds)
+        factorization = median(found[name].factorization[1:])
         error = np.abs(solver.solve(system.force) - expected).max() / np.abs(expected).max()
         negative = solver.negative_pivots
-        inertia = "unknown" if negative is None else f"{negative - system.pressures:+d}"
+        inertia = "unknown" if negative is None else f"{negative - system.pressures}"
         memory = in_a_process(name, file)["memory_mib"]
         yield (
-            f"| {system.name} | {len(expected)} | {solver.name} | {ordering:.2f} "
-            f"| {factorization:.3f} | {factorization / usual:.1f} | {median(times.solve[1:]):.3f} "
-            f"| {error:.0e} | {inertia} | {memory:.0f} MiB |"
+            f"| {system.name} | {len(expected)} | {solver.name} "
+            f"| {'–' if ordering is None else f'{ordering:.2f}'} "
+            f"| {factorization:.3f} | {factorization / usual:.1f} "
+            f"| {median(found[name].solve[1:]):.3f} | {error:.0e} | {inertia} | {memory:.0f} MiB |"
         )
 
 
@@ -127,18 +151,17 @@ def in_a_process(name: str, file: Path, environment: dict[str, str] | None = Non
 
 
 def here(name: str, file: Path) -> dict[str, Any]:
-    """Memory a factorization holds, seconds of the second one, and the solution's bits."""
+    """Memory a factorization holds, seconds of feral's second one, and the solution's bits."""
     data = np.load(file)
     pattern, values = Pattern(data["indptr"], data["indices"]), data["values"]
     solver = linear_solver(name)
     before = resident()
     solver.analyze(pattern)
-    for _ in range(2):
-        start = time.perf_counter()
-        solver.factorize(values)
-        seconds = time.perf_counter() - start
+    solver.factorize(values)
+    memory = resident() - before
+    again = seconds(lambda: solver.factorize(values)) if name == "feral" else None
     bits = hashlib.sha256(solver.solve(data["force"]).tobytes()).hexdigest()
-    return {"memory_mib": resident() - before, "seconds": seconds, "bits": bits}
+    return {"memory_mib": memory, "seconds": again, "bits": bits}
 
 
 def resident() -> float:
@@ -152,8 +175,8 @@ def repeatability(system: System, file: Path) -> str:
     """One line: feral in four processes, with all threads and with one, twice each."""
     found = [in_a_process("feral", file, mode) for mode in ({}, {}, ONE_THREAD, ONE_THREAD)]
     kinds = len({run["bits"] for run in found})
-    seconds = (min(run["seconds"] for run in found[k : k + 2]) for k in (0, 2))
-    return f"| {system.name} | {kinds} | {' | '.join(f'{s:.3f}' for s in seconds)} |"
+    both, one = (min(run["seconds"] for run in found[k : k + 2]) for k in (0, 2))
+    return f"| {system.name} | {kinds} | {both:.3f} | {one:.3f} |"
 
 
 def balloon() -> str:
