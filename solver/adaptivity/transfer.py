@@ -19,11 +19,19 @@ by more, and the extrapolation is as good as the interpolation."""
 
 
 def transfer(solution: Solution, finer_mesh: Mesh) -> tuple[Reals, Reals]:
-    """Displacement (n, 3) and hydrostatic pressure (v,) of a solution on another mesh.
+    """Interpolate a solution to another mesh of the same body, as ``initial`` for ``solve``.
 
-    Interpolates with the shape functions of the element each node lies in; a node slightly
-    outside of the old mesh takes the extrapolation of the element it is least outside of. Pass
-    the result as ``initial`` to ``solver.solve``.
+    By the shape functions of the element in which each node lies; a node slightly outside of the
+    old mesh takes the extrapolation of the element it is least outside of.
+
+    Args:
+        solution: on the old mesh.
+        finer_mesh: the other mesh.
+
+    Returns:
+        Displacement at its nodes and hydrostatic pressure at its vertices.
+
+        *Shape:* (n, 3) in mm, (v,) in MPa.
     """
     mesh = solution.problem.mesh
     element, barycentric = locate(mesh, finer_mesh.nodes)

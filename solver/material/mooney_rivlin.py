@@ -30,11 +30,24 @@ from solver.numerics.special_functions import phi2, sinhc
 
 @dataclass(frozen=True)
 class MooneyRivlin(Hyperelastic):
-    """Mooney-Rivlin rubber with five constants in MPa, of either sign.
+    """Mooney-Rivlin rubber with five constants, of either sign.
 
-    It is stable up to some strain only if one of them is negative; ``solver.material.stability``
-    says how far. ``bulk_modulus`` (MPa) and ``volumetric`` as for every ``Hyperelastic``. Raises
-    ``SolverError`` if a number is not finite or the initial shear modulus is not positive.
+    W = C10 x + C01 y + C20 x^2 + C11 x y + C02 y^2 with x = I1 - 3 and y = I2 - 3 of the isochoric
+    stretches. With a negative constant it may be stable up to some strain only;
+    ``solver.material.stability`` computes that strain.
+
+    Attributes:
+        c10: C10, MPa.
+        c01: C01, MPa.
+        c20: C20, MPa.
+        c11: C11, MPa.
+        c02: C02, MPa.
+        bulk_modulus: K, MPa; infinite means incompressible, J = 1.
+        volumetric: "quadratic", K (J - 1)^2 / 2, or "logarithmic", K (J^2 - 1 - 2 ln J) / 4.
+
+    Raises:
+        SolverError: a constant is not finite, the initial shear modulus 2 (C10 + C01) or the bulk
+            modulus is not positive, or the volumetric law is unknown.
     """
 
     law: ClassVar[str] = "mooney-rivlin-5"

@@ -34,17 +34,25 @@ from solver.numerics.special_functions import phi1, phi2, sinhc
 class Ogden(Hyperelastic):
     """Ogden's rubber in Abaqus's form, any number of terms, with Yeoh's higher ones.
 
-    W = sum_k 2 mu_k / alpha_k^2 (l1^alpha_k + l2^alpha_k + l3^alpha_k - 3) of the isochoric
-    stretches l_i = J^(-1/3) lambda_i, MPa; the term with alpha_k = 0 is its limit, Hencky's
-    mu_k (ln^2 l1 + ln^2 l2 + ln^2 l3). ``higher`` = (C20, C30, ...), MPa, adds Yeoh's
-    C20 (I1 - 3)^2 + C30 (I1 - 3)^3 + ... of I1 = l1^2 + l2^2 + l3^2.
+    W = sum_k 2 mu_k / alpha_k^2 (l1^alpha_k + l2^alpha_k + l3^alpha_k - 3)
+    + C20 (I1 - 3)^2 + C30 (I1 - 3)^3 + ... of the isochoric stretches l_i = J^(-1/3) lambda_i and
+    I1 = l1^2 + l2^2 + l3^2; the term with alpha_k = 0 is its limit, Hencky's
+    mu_k (ln^2 l1 + ln^2 l2 + ln^2 l3).
 
-    ``bulk_modulus`` (MPa) and ``volumetric`` as for every ``Hyperelastic``.
+    Positive mu_k are Hill's inequality in this form: such a material is stable at every strain as
+    long as no ``higher`` is negative. Negative ones, common in Yeoh's model, are taken, and are
+    stable up to some strain only.
 
-    Every mu_k is positive, which is Hill's inequality in this form: such a material is stable at
-    every strain as long as no ``higher`` is negative. Negative ones, common in Yeoh's model, are
-    taken, and are stable up to some strain only. Raises ``SolverError`` for other mu, when a number
-    is not finite, when the lengths of ``mu`` and ``alpha`` differ, and for an unknown law.
+    Attributes:
+        mu: moduli, MPa; positive.
+        alpha: exponents, as many.
+        bulk_modulus: K, MPa; infinite means incompressible, J = 1.
+        higher: Yeoh's (C20, C30, ...), MPa.
+        volumetric: "quadratic", K (J - 1)^2 / 2, or "logarithmic", K (J^2 - 1 - 2 ln J) / 4.
+
+    Raises:
+        SolverError: no mu or one that is not positive, a number that is not finite, other lengths
+            of ``mu`` and ``alpha``, a bulk modulus that is not positive, an unknown volumetric law.
     """
 
     law: ClassVar[str] = "ogden"

@@ -20,14 +20,23 @@ from solver.mesh.elements import TETRAHEDRON_EDGES
 class Mesh:
     """Ten-node tetrahedra, straight or curved, and named six-node triangles on their faces.
 
-    - ``nodes``: (n, 3) reference coordinates, mm.
-    - ``tets``: (e, 10) node numbers in Gmsh's order: four vertices, then the mid-nodes of the
-      edges (0, 1) (1, 2) (0, 2) (0, 3) (2, 3) (1, 3).
-    - ``surfaces``: name -> (k, 6) node numbers of triangles in Gmsh's order (three vertices, then
-      the mid-nodes of (0, 1) (1, 2) (2, 0)); normals point out of the solid.
+    All arrays are read-only views of the given ones.
 
-    The arrays are read-only views of what was given. Raises ``SolverError`` when a shape is wrong
-    or a node number is out of range.
+    Attributes:
+        nodes: reference coordinates.
+
+            *Shape:* (n, 3) in mm.
+        tets: node numbers in Gmsh's order: four vertices, then the mid-nodes of the edges (0, 1)
+            (1, 2) (0, 2) (0, 3) (2, 3) (1, 3).
+
+            *Shape:* (e, 10).
+        surfaces: name -> node numbers of triangles in Gmsh's order: three vertices, then the
+            mid-nodes of (0, 1) (1, 2) (2, 0); normals point out of the solid.
+
+            *Shape:* (k, 6) each.
+
+    Raises:
+        SolverError: a shape is wrong, a coordinate is not finite, or a node number is out of range.
     """
 
     nodes: Reals

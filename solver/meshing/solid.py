@@ -27,7 +27,14 @@ SIZE_OF_EDGE = 0.83
 
 @dataclass(frozen=True)
 class SizeField:
-    """Edge lengths ``sizes`` (n,) in mm wanted at the nodes of a ``mesh`` of the same body."""
+    """Wanted edge lengths of the next mesh, as a field on a mesh of the same body.
+
+    Attributes:
+        mesh: the mesh at hand.
+        sizes: wanted at its nodes.
+
+            *Shape:* (n,) in mm.
+    """
 
     mesh: Mesh
     sizes: NDArray[np.float64]
@@ -35,12 +42,17 @@ class SizeField:
 
 @dataclass(frozen=True)
 class MeshOptions:
-    """Sizes of a mesh.
+    """Wanted sizes of elements.
 
-    - ``size``: largest edge, mm.
-    - ``elements_per_circle``: edges on a full circle of every curved face; 0 ignores curvature.
-    - ``smallest_size``: smallest edge asked for, mm.
-    - ``field``: edges wanted here and there, from ``refined_sizes``; the least size counts.
+    Attributes:
+        size: largest edge, mm.
+        elements_per_circle: edges on a full circle of every curved face; 0 ignores curvature.
+        smallest_size: lower bound of the wanted edges, mm.
+        field: local edge lengths, from ``refined_sizes``; the least of all sizes counts.
+
+    Raises:
+        SolverError: sizes that are not positive, finite and in order, or elements per circle
+            outside of 0 to 100.
     """
 
     size: float = 2.0
@@ -67,13 +79,22 @@ def mesh_solid(
     options: MeshOptions | None = None,
     seconds: float = DEFAULT_SECONDS,
 ) -> Mesh:
-    """Mesh the single solid in the BREP file ``brep``, or in the content of one.
+    """Mesh a solid with named faces.
 
-    ``face_names`` names its faces in the file's own order; faces that share a name make one
-    surface of the mesh. Gmsh runs in a process of its own, for at most ``seconds``.
+    Gmsh runs in a process of its own.
+
+    Args:
+        brep: a BREP file with a single solid, or the content of one.
+        face_names: names of its faces in the file's order; faces that share a name make one surface
+            of the mesh.
+        options: sizes of elements.
+        seconds: time limit, s.
+
+    Returns:
+        Curved quadratic tetrahedra with the named surfaces.
 
     Raises:
-        MeshingError: no mesh, none in time, or one whose worst element is all but flat.
+        MeshingError: no mesh, none within ``seconds``, or one with a folded or almost flat element.
         SolverError: the number of names is not the number of faces, or ``seconds`` is not above 0.
         OSError: ``brep`` cannot be read, or Gmsh cannot be loaded.
     """

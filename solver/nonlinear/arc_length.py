@@ -33,7 +33,12 @@ LONGEST_STEP = 0.05
 
 @dataclass(frozen=True)
 class Limit:
-    """A point where the load turns, or where the body's stability changes while it goes on."""
+    """A limit point, where the load has an extremum along the path, or a bifurcation.
+
+    Attributes:
+        kind: of the load's extremum; ``bifurcation`` where the stability changes without one.
+        point: the equilibrium there.
+    """
 
     kind: Literal["maximum", "minimum", "bifurcation"]
     point: PathPoint
@@ -49,9 +54,13 @@ class Limit:
 
 @dataclass(frozen=True)
 class Trace:
-    """A path: its ``points`` with their ``states``, the ``limits`` met, and why it ends.
+    """An equilibrium path.
 
-    Limits are points of the path too.
+    Attributes:
+        points: its equilibria, with those of ``limits``.
+        states: fields of each of the points.
+        limits: the limit points and bifurcations found on it.
+        message: why it ends.
     """
 
     points: tuple[PathPoint, ...]
@@ -69,13 +78,27 @@ def trace(
     longest_step: float = LONGEST_STEP,
     until: Callable[[PathPoint], bool] | None = None,
 ) -> Trace:
-    """Follow the equilibria of ``problem`` from zero load, stable or not.
+    """Follow the equilibria of ``problem`` from zero load by arc length, stable or not.
 
-    ``pressure`` (MPa) and the problem's loads and prescribed motions are the whole load, 1; the
-    path ends where that is passed, where ``until`` says so of a point, after ``steps`` steps, or
-    where no step succeeds. The first step is ``options.first_step`` of the load, or a tenth; none
-    moves the nodes by more than ``longest_step`` body diagonals (root mean square). Raises
-    ``SolverError`` for a pressure that is not finite, and for no steps or steps of no length.
+    The path ends where the whole load is passed, where ``until`` holds, after ``steps`` steps, or
+    where no step succeeds.
+
+    Args:
+        problem: body, supports and loads; its loads and prescribed motions belong to the whole
+            load, 1.
+        pressure: on the pressurised surfaces at the whole load, MPa.
+        options: tolerances, and the ``first_step``: a fraction of the load, a tenth by default.
+        listener: is called with an ``Event`` after each correction.
+        steps: largest number of steps.
+        longest_step: upper bound of the nodes' displacement in a step, root mean square, in units
+            of the body's diagonal.
+        until: condition on a point that ends the path there.
+
+    Returns:
+        The path.
+
+    Raises:
+        SolverError: a pressure that is not finite, no steps, or steps of no length.
     """
     if not np.isfinite(pressure):
         raise SolverError(f"pressure must be a finite number of MPa, got {pressure}.")

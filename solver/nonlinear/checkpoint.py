@@ -1,4 +1,4 @@
-"""A solve as it stood after a load step: enough to go on from there, to the last bit."""
+"""A solve after a load step: enough to continue it with the same bits."""
 
 from __future__ import annotations
 
@@ -28,12 +28,15 @@ class Effort:
 
 @dataclass(frozen=True)
 class Checkpoint:
-    """A load step that was reached, and what the next one depends on.
+    """An accepted load step, with the data that the next one depends on.
 
-    ``reached`` is in equilibrium at the fraction ``load`` of the asked load, the next step is
-    ``step`` long in the ``direction`` of the equilibrium's derivative with respect to the load
-    (zero at the whole load).
-    ``points``: the path so far; ``effort``: the counts so far, in the order of ``Effort``.
+    Attributes:
+        reached: equilibrium at ``load``.
+        load: fraction of the whole load.
+        step: length of the next step, as a fraction of the whole load.
+        direction: derivative of the equilibrium with respect to the load; zero at the whole load.
+        points: the path so far.
+        effort: counts so far, in the order of ``Effort``.
     """
 
     reached: State
@@ -55,7 +58,7 @@ class Checkpoint:
 
     @staticmethod
     def load_from(path: Path) -> Checkpoint:
-        """Read what ``save`` wrote; ``SolverError`` if that is not what the file holds."""
+        """Read what ``save`` wrote. Raises ``SolverError`` if the file holds anything else."""
         try:
             with np.load(path, allow_pickle=False) as file:
                 return _checkpoint({name: file[name] for name in file.files})

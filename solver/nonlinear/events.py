@@ -15,10 +15,14 @@ Kind: TypeAlias = Literal["iteration", "step", "refused"]
 class Event:
     """Progress of a solve, for a listener.
 
-    ``kind``: ``iteration`` after each correction, ``step`` after each load step reached,
-    ``refused`` after each load step given up. ``load`` is the fraction of the asked pressure
-    being tried, ``rotation`` (degrees) that of the ``tip`` so far, ``correction`` (mm) the largest
-    node's. A step reached on the way from zero carries a ``checkpoint`` to go on from.
+    Attributes:
+        kind: ``iteration`` after each correction, ``step`` after each accepted load step,
+            ``refused`` after each rejected one.
+        load: fraction of the whole load that is tried or reached.
+        rotation: of the moving plane or else of the surface ``tip``, degrees.
+        iteration: number of corrections in this step so far.
+        correction: its largest component at a node, mm.
+        checkpoint: of an accepted step on a path from zero, to resume the solve from.
     """
 
     kind: Kind

@@ -102,12 +102,21 @@ def _turn(vectors: Reals, angles: Reals) -> Reals:
 
 
 def rotation(mesh: Mesh, displacement: Reals, surface: str = "tip") -> float:
-    """Rotation of a surface about y, degrees, positive towards -z, past 180 and 360 degrees.
+    """Rotation of a surface about y by best fit, whole turns included.
 
-    The best-fit (Procrustes) in-plane rotation of the surface's nodes. Its whole turns are
-    counted along the body: slices of nodes from the smallest x to the largest, where the surface
-    is, turn little against each other. So the result is a function of the state alone. NaN when
-    the mesh has no such surface.
+    The in-plane rotation of its nodes of least squares (Procrustes). Whole turns are counted along
+    the body, whose neighbouring slices of nodes rotate little against each other, from the smallest
+    x to the largest, where the surface lies. So the result is a function of the state alone.
+
+    Args:
+        mesh: the undeformed body.
+        displacement: of its nodes.
+
+            *Shape:* (n, 3) in mm.
+        surface: name of the surface.
+
+    Returns:
+        Degrees, positive towards -z, past 180 and 360; NaN if the mesh has no such surface.
     """
     if surface not in mesh.surfaces:
         return float("nan")

@@ -7,21 +7,31 @@ from dataclasses import dataclass
 from solver.errors import SolverError
 
 FIRST_STEP = 0.1
-"""Of the load, where no other is asked for."""
+"""Default, as a fraction of the load."""
 
 
 @dataclass(frozen=True)
 class SolverOptions:
-    """How the load is applied.
+    """Step sizes, tolerances and linear solver.
 
-    Steps are fractions of the asked load. Without a ``first_step`` it is a tenth, or along an axis
-    as much as would move the body by its own diagonal if it went on as it begins. A load counts as
-    reached when the last Newton correction moved no node by more than ``tolerance``, in units of
-    the body's diagonal; what is left after that correction is far smaller. Below the asked load
-    ``loose_tolerance`` will do, or a twentieth of a mean edge of the mesh if that is less (a
-    slender body is stiff against what is small against its length), of a correction by the state's
-    own tangent. At the asked load a factorization is used again after a correction that was smaller
-    than the one before by the factor ``reuse``; 0 is never.
+    Attributes:
+        first_step: fraction of the load. By default a tenth, or along an axis the step whose
+            linear prediction moves the body by its own diagonal.
+        growth: factor by which a step may grow after an accepted one.
+        cut: factor of a step after a rejected one.
+        smallest_step: fraction of the load; a path stops where a step would be shorter.
+        maximum_iterations: of Newton's method at one load; twice as many where surfaces touch.
+        tolerance: largest component of the last Newton correction at the whole load, in units of
+            the body's diagonal; the error left after that correction is far smaller.
+        loose_tolerance: the same at smaller loads, or a twentieth of a mean edge of the mesh if
+            that is less (a slender body is stiff against motions that are small against its
+            length), of a correction by the tangent of the state itself.
+        reuse: at the whole load a factorization is used again after a correction that was smaller
+            than the one before by this factor; 0 for never.
+        linear_solver: "auto", or the name of one.
+
+    Raises:
+        SolverError: a number out of its bounds.
     """
 
     first_step: float | None = None

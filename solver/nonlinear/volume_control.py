@@ -34,13 +34,25 @@ def inflate(
     listener: Listener | None = None,
     stops: Sequence[float] = (),
 ) -> Solution:
-    """Equilibrium of ``problem`` with ``volume`` (mm^3) inside its pressurised surfaces.
+    """Equilibrium of ``problem`` at a given volume inside its pressurised surfaces.
 
-    ``Solution.pressure`` is the pressure that takes. Steps are fractions of the change of volume;
-    the path has a point at each of the volumes ``stops`` on the way. Its points need not be stable
-    while the pressure is held: each says so. For the volume of a symmetric part see
-    ``enclosed_volume``. Raises ``SolverError`` for a problem with other loads than
-    pressure, and for volumes out of order.
+    The pressure is an unknown. Points of the path need not be stable at constant pressure; each
+    says whether it is.
+
+    Args:
+        problem: body and supports; its only load is the pressure.
+        volume: inside the pressurised surfaces, mm^3; of a symmetric part as ``enclosed_volume``
+            defines it.
+        options: tolerances and sizes of steps, which are fractions of the change of volume.
+        listener: is called with an ``Event`` after each correction.
+        stops: volumes before ``volume``, mm^3, at each of which the path has a point.
+
+    Returns:
+        The last equilibrium found; ``pressure`` is the one that the volume takes.
+
+    Raises:
+        SolverError: other loads than pressure, volumes that are not positive, or not in order
+            between that at rest and ``volume``.
     """
     start = time.perf_counter()
     if problem.loads or problem.supports.prescribed or not problem.pressurised:

@@ -20,7 +20,15 @@ Field: TypeAlias = tuple[float, float, float] | Callable[[Reals], Reals]
 
 @dataclass(frozen=True)
 class Traction:
-    """A force on a surface: ``stress`` in MPa, N per mm^2 of the undeformed surface."""
+    """A dead force on a surface.
+
+    Attributes:
+        surface: name of the surface.
+        stress: force per area of the undeformed surface, MPa: a vector, or a function of reference
+            positions.
+
+            *Shape:* (3,), or (k, 3) in mm -> (k, 3) in MPa.
+    """
 
     surface: str
     stress: Field
@@ -28,14 +36,26 @@ class Traction:
 
 @dataclass(frozen=True)
 class BodyForce:
-    """A force in the whole body: ``density`` in N per mm^3 of the undeformed body."""
+    """A dead force in the whole body.
+
+    Attributes:
+        density: force per volume of the undeformed body, N/mm^3: a vector, or a function of
+            reference positions.
+
+            *Shape:* (3,), or (k, 3) in mm -> (k, 3) in N/mm^3.
+    """
 
     density: Field
 
 
 @dataclass(frozen=True)
 class PointForce:
-    """A ``force`` (N) on the node at ``position`` (mm, undeformed)."""
+    """A dead force on a node.
+
+    Attributes:
+        position: of the node in the undeformed body, mm.
+        force: its components, N.
+    """
 
     position: tuple[float, float, float]
     force: tuple[float, float, float]
@@ -43,10 +63,12 @@ class PointForce:
 
 @dataclass(frozen=True)
 class Couple:
-    """A ``moment`` (N mm) about y on the problem's moving plane; it turns with the plane.
+    """A couple about y on the problem's moving plane, with which it rotates.
 
-    Positive ones turn the plane's normal from +x towards -z. It is what the rest of a uniform
-    chain, or of a long tube, exerts in pure bending.
+    In pure bending the rest of a uniform chain, or of a long tube, exerts one.
+
+    Attributes:
+        moment: N mm; positive turns the plane's normal from +x towards -z.
     """
 
     moment: float

@@ -18,10 +18,14 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class SlenderAxis:
-    """A slender body along +x that bends in the plane normal to y.
+    """Axis of a slender body along +x that bends in the plane normal to y.
 
-    ``stations``: at least two ascending positions along x, mm. The first is where the body is
-    held; the others follow its parts (for a bellows: middles of bubbles and gaps, and the tip).
+    Attributes:
+        stations: at least two ascending positions along x, mm. The first is where the body is held;
+            the others follow its parts (for a bellows: middles of bubbles and gaps, and the tip).
+
+    Raises:
+        SolverError: fewer than two stations, or ones that are not finite or not ascending.
     """
 
     stations: tuple[float, ...]
@@ -38,12 +42,18 @@ class SlenderAxis:
 
 @dataclass(frozen=True)
 class Contact:
-    """``surface`` may not cross a plane, behind which the body's mirror image stands.
+    """Frictionless contact of a surface with a plane of symmetry, which it may not cross.
 
-    The plane is normal to ``axis`` (0, 1, 2) at ``position`` (mm), or the problem's moving plane if
-    ``axis`` is None. A contact pressure as high as the material's shear modulus pushes the surface
-    through it by ``penetration`` (mm), others in proportion. Raises ``SolverError`` for other axes
-    and penetrations.
+    Attributes:
+        surface: name of the surface.
+        penetration: depth beyond the plane, mm, at a contact pressure equal to the material's
+            initial shear modulus; other pressures in proportion.
+        axis: normal of the plane, 0, 1 or 2; None for the problem's moving plane.
+        position: of the plane along ``axis``, mm.
+
+    Raises:
+        SolverError: another axis, a penetration that is not positive and finite, or a position that
+            is not finite.
     """
 
     surface: str
@@ -63,19 +73,30 @@ class Contact:
 
 @dataclass(frozen=True)
 class Problem:
-    """A hyperelastic solid under a follower pressure on the surfaces ``pressurised``.
+    """A hyperelastic solid under a follower pressure, dead loads and prescribed motions.
 
-    Dead ``loads`` and prescribed motions grow with the pressure, from nothing to their full size.
-    With an ``axis`` the nonlinear solver moves the body by finite rotations (``SlenderMotion``).
-    ``moving_plane`` names a plane surface normal to x that stays plane, free to turn about y and
-    to shift along x: the section between two cells of a uniform chain, which goes on behind it.
-    It carries what the pressure does to the cavity beyond (``MovingPlane``), and the
-    ``Couple`` among the loads, the only load there may be besides.
-    ``contacts`` keep surfaces from crossing planes of symmetry (``solver.assembly.contact``).
-    Stress nearer than ``sharp_edge_radius`` (mm) to an edge where the ideal body's has no finite
-    value is left out of peaks (``solver.results.sharp_edges``).
-    Raises ``SolverError`` when a surface is unknown, the moving one is not plane, or the supports
-    leave a rigid motion free.
+    Loads and prescribed motions grow in proportion with the pressure, from nothing to their full
+    size.
+
+    Attributes:
+        mesh: the undeformed body.
+        material: its hyperelastic law.
+        supports: displacement boundary conditions.
+        pressurised: names of the surfaces under pressure.
+        loads: dead loads; with a moving plane couples only.
+        axis: if given, increments are applied as finite rotations along it (``SlenderMotion``).
+        moving_plane: name of a plane surface normal to x that stays plane, free to rotate about y
+            and to shift along x: the section between two cells of a uniform chain. It carries the
+            resultant of the pressure in the cavity beyond it (``MovingPlane``).
+        sharp_edge_radius: mm; stresses nearer than that to an edge at which the ideal body's are
+            unbounded are left out of peaks (``solver.results.sharp_edges``).
+        contacts: surfaces that may not cross planes of symmetry (``solver.assembly.contact``).
+
+    Raises:
+        SolverError: a surface is unknown, has no triangles or is not made of outer faces, the
+            moving plane is not plane, loads do not go with it, a contact has no plane, the supports
+            leave a rigid motion free, or they leave the pressure of an incompressible body
+            undetermined.
     """
 
     mesh: Mesh

@@ -23,12 +23,18 @@ NaN where a component is free; zero at no load.
 
 @dataclass(frozen=True)
 class Supports:
-    """Surfaces that are held or led.
+    """Displacement boundary conditions on named surfaces.
 
-    - ``clamped``: surfaces with zero displacement.
-    - ``symmetry``: surface -> axis (0, 1, 2) whose displacement is zero on it.
-    - ``prescribed``: surface -> ``Placement``, where it is at each fraction of the load; it
-      overrules the others on shared nodes.
+    Attributes:
+        clamped: surfaces with zero displacement.
+        symmetry: surface -> axis (0, 1, 2) whose displacement is zero on it.
+        prescribed: surface -> ``Placement``, its displacement at each fraction of the load; takes
+            precedence over the others on shared nodes.
+
+            *Shape:* reference positions (k, 3) in mm, load -> (k, 3) in mm, NaN where free.
+
+    Raises:
+        SolverError: an axis other than 0, 1 or 2.
     """
 
     clamped: tuple[str, ...] = ()

@@ -1,4 +1,4 @@
-"""What supports exert on a body: force and moment."""
+"""Reactions of supports."""
 
 from __future__ import annotations
 
@@ -13,7 +13,16 @@ from solver.results.solution import Solution
 
 @dataclass(frozen=True)
 class Reaction:
-    """``force`` (3,) in N and ``moment`` (3,) in N mm of a support on the body."""
+    """Force and moment of a support on the body.
+
+    Attributes:
+        force: its components.
+
+            *Shape:* (3,) in N.
+        moment: about a given point.
+
+            *Shape:* (3,) in N mm.
+    """
 
     force: Reals
     moment: Reals
@@ -22,11 +31,21 @@ class Reaction:
 def reaction(
     solution: Solution, surface: str, about: tuple[float, float, float] = (0.0, 0.0, 0.0)
 ) -> Reaction:
-    """What the support on ``surface`` exerts, its moment about a point in space (mm).
+    """Reaction of the support on a surface.
 
-    Lever arms are those of the deformed body. Nodes that are held by two supports count in full,
-    so a symmetry plane next to the surface adds its own forces, normal to itself. Raises
-    ``SolverError`` for an unknown surface.
+    Lever arms are those of the deformed body. Nodes that are held by two supports count in full: a
+    symmetry plane next to the surface adds its own forces, normal to itself.
+
+    Args:
+        solution: an equilibrium.
+        surface: name of the held surface.
+        about: point in space that the moment refers to, mm.
+
+    Returns:
+        Force and moment on the body.
+
+    Raises:
+        SolverError: an unknown surface.
     """
     mesh = solution.problem.mesh
     nodes = mesh.surface_nodes(surface)

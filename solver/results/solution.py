@@ -1,4 +1,4 @@
-"""What a solve returns, and how to write it down."""
+"""Results of a solve: the path and its last equilibrium."""
 
 from __future__ import annotations
 
@@ -15,13 +15,17 @@ from solver.problem.problem import Problem
 
 @dataclass(frozen=True)
 class PathPoint:
-    """One equilibrium on the load path.
+    """One equilibrium on an equilibrium path.
 
-    ``pressure`` (MPa), ``rotation`` of the moving plane or else of the surface ``tip`` about y
-    (degrees, positive towards -z, past 360; NaN without either), Newton ``iterations`` spent on
-    the step, largest nodal von Mises stress (MPa), ``volume`` inside the pressurised surfaces
-    (mm^3, see ``enclosed_volume``), the fraction of the whole ``load``, whether it
-    is ``stable`` while the load is held (None where the linear solver cannot tell).
+    Attributes:
+        pressure: applied, MPa.
+        rotation: of the moving plane or else of the surface ``tip`` about y, degrees, positive
+            towards -z, past 360; NaN without either.
+        iterations: of Newton's method in the step.
+        max_von_mises: largest nodal von Mises stress, MPa.
+        volume: inside the pressurised surfaces, mm^3, see ``enclosed_volume``.
+        load: fraction of the whole load.
+        stable: whether it is stable at constant load; None where the linear solver cannot tell.
     """
 
     pressure: float
@@ -35,16 +39,32 @@ class PathPoint:
 
 @dataclass(frozen=True)
 class Solution:
-    """The last good equilibrium of a problem: at the asked pressure exactly if ``converged``.
+    """The last equilibrium found of a problem: at the whole load exactly if ``converged``.
 
-    ``pressure`` is the applied pressure it belongs to (MPa), ``displacement`` (n, 3) in mm,
-    ``hydrostatic_pressure`` (v,) in MPa at ``mesh.vertices``, positive in compression.
-    ``message`` says in one sentence how far the load came and why it stopped there.
-    ``plane``: tilt (rad) and shift (mm) of the moving plane, zeros without one. ``load``: the
-    fraction of the whole load it belongs to. ``limit``: the pressure (MPa; the fraction of the load
-    where there is no pressure) of the limit point that ended the way, None if there was none.
-    ``refused_steps`` load steps were cut back. ``negative_pivots`` of the last tangent that was
-    factorized equals v where the state is stable; None if the linear solver cannot tell.
+    Attributes:
+        problem: the problem that was solved.
+        pressure: applied, MPa.
+        displacement: of the nodes.
+
+            *Shape:* (n, 3) in mm.
+        hydrostatic_pressure: at ``mesh.vertices``, positive in compression.
+
+            *Shape:* (v,) in MPa.
+        path: equilibria up to this one.
+        converged: whether the whole load was reached.
+        message: one sentence on how much of the load was reached, and why no more.
+        newton_iterations: in all.
+        factorizations: of the tangent, in all.
+        load_steps: accepted ones.
+        refused_steps: rejected ones.
+        linear_solver: its name.
+        negative_pivots: of the last tangent that was factorized; v where the state is stable, None
+            if the linear solver cannot tell.
+        seconds: of the solve.
+        plane: tilt (rad) and shift (mm) of the moving plane, zeros without one.
+        load: fraction of the whole load.
+        limit: pressure at the limit point that ended the path, MPa (fraction of the load where
+            there is no pressure); None without one.
     """
 
     problem: Problem
@@ -67,7 +87,7 @@ class Solution:
 
     @property
     def stable(self) -> bool | None:
-        """Whether the state is stable while the load is held; None if that is unknown."""
+        """Whether the state is stable at constant load; None if unknown."""
         return self.path[-1].stable
 
     @property
@@ -82,8 +102,19 @@ class Solution:
 
 
 def cavity_volume(mesh: Mesh, displacement: Reals, surfaces: tuple[str, ...]) -> float:
-    """Volume of the cavity inside ``surfaces`` of the deformed mesh, mm^3.
+    """Volume of the cavity inside surfaces of the deformed mesh; of its half in a half model.
 
-    For a half model this is the half cavity's volume. See ``enclosed_volume``.
+    Args:
+        mesh: the undeformed body.
+        displacement: of its nodes.
+
+            *Shape:* (n, 3) in mm.
+        surfaces: names of the surfaces around the cavity; see ``enclosed_volume`` for open ones.
+
+    Returns:
+        mm^3.
+
+    Raises:
+        SolverError: an unknown surface.
     """
     return enclosed_volume(mesh, displacement, surfaces)

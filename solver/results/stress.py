@@ -21,11 +21,15 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Peak:
-    """The largest nodal value: ``value`` (MPa), ``node`` number, reference ``position`` (mm).
+    """A largest nodal stress.
 
-    ``scatter`` (MPa) is how much the elements around the node disagree: the root mean square of
-    the von Mises stress of their differences from the average. It vanishes under refinement, and
-    is 0 at a node of a single element.
+    Attributes:
+        value: MPa.
+        node: its number.
+        position: of the node in the undeformed body, mm.
+        scatter: MPa, how far the elements around the node differ: the root mean square of the von
+            Mises stress of their differences from the average. It vanishes under refinement, and
+            is 0 at a node of a single element.
     """
 
     value: float
@@ -35,21 +39,44 @@ class Peak:
 
 
 def nodal_von_mises(solution: Solution) -> Reals:
-    """Von Mises Cauchy stress at the nodes, MPa. (n,)"""
+    """Von Mises Cauchy stress at the nodes.
+
+    Args:
+        solution: an equilibrium.
+
+    Returns:
+        Averages over the elements at each node, weighted by their volumes.
+
+        *Shape:* (n,) in MPa.
+    """
     return von_mises(deviatoric_at_nodes(solution.problem, solution.state.displacement))
 
 
 def nodal_cauchy(solution: Solution) -> Reals:
-    """Cauchy stress at the nodes, MPa: (n, 6) in the order xx, yy, zz, xy, yz, zx."""
+    """Cauchy stress at the nodes.
+
+    Args:
+        solution: an equilibrium.
+
+    Returns:
+        Components in the order xx, yy, zz, xy, yz, zx.
+
+        *Shape:* (n, 6) in MPa.
+    """
     stress = deviatoric_at_nodes(solution.problem, solution.state.displacement)
     stress[:, :3] -= nodal_pressure(solution.problem, solution.state)[:, None]
     return stress
 
 
 def peak_von_mises(solution: Solution) -> Peak:
-    """The largest nodal von Mises stress and where it is in the undeformed body.
+    """Largest nodal von Mises stress.
 
-    Nodes too near to a sharp edge (``solver.results.sharp_edges``) do not count.
+    Args:
+        solution: an equilibrium. Nodes nearer to a sharp edge than its problem's
+            ``sharp_edge_radius`` do not count (``solver.results.sharp_edges``).
+
+    Returns:
+        The stress and where it is.
     """
     mesh = solution.problem.mesh
     stress = element_stress(solution)

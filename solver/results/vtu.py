@@ -9,7 +9,18 @@ from solver.results.stress import nodal_pressure, nodal_von_mises
 
 
 def write_vtu(path: Path, solution: Solution) -> None:
-    """Write a ParaView file: the undeformed mesh with displacement, von Mises and pressure."""
+    """Write a file for ParaView.
+
+    It holds the undeformed mesh with displacement (mm), von Mises stress and hydrostatic pressure
+    (MPa) at the nodes.
+
+    Args:
+        path: of the file, which is overwritten.
+        solution: an equilibrium.
+
+    Raises:
+        OSError: the file cannot be written.
+    """
     import meshio
 
     mesh = solution.problem.mesh
