@@ -1,1 +1,1 @@
-"""The next mesh: where it must be finer, and what it starts from."""
+"""Sizes of the next mesh's elements, and interpolation of a solution to it."""

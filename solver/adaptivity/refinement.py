@@ -1,12 +1,12 @@
-"""Where a mesh should be finer: sizes of the next mesh from the errors of a solution.
+"""Element sizes of the next mesh from the estimated errors of a solution.
 
-Two demands, the stricter of which counts in each element:
+Two criteria, of which the stricter one counts in each element:
 
 - *energy*: the difference between an element's stress and the smoothed one (Zienkiewicz and Zhu,
-  1987), as its norm over the element, shall be alike in all elements. This serves displacements
-  and angles.
-- *peak*: where the stress comes near its highest, the difference itself shall be a small share of
-  that. This serves the reported stress.
+  1987), as its norm over the element, shall be equal in all elements. It controls the errors of
+  displacements and angles.
+- *peak*: where the stress is close to its maximum, the difference itself shall be a small fraction
+  of that. It controls the error of the reported stress.
 """
 
 from __future__ import annotations
@@ -25,11 +25,11 @@ from solver.results.stress import ElementStress, element_stress, von_mises
 
 @dataclass(frozen=True)
 class Refinement:
-    """How much finer the next mesh may get.
+    """Targets of a refinement.
 
-    - ``growth``: elements asked for by the energy demand, in multiples of those at hand.
-    - ``peak_tolerance``: stress difference asked for near the peak, as a share of the peak.
-    - ``near_peak``: share of the peak from which on a place counts as near it.
+    - ``growth``: number of elements by the energy criterion, in multiples of the present one.
+    - ``peak_tolerance``: wanted stress difference near the peak, as a fraction of the peak.
+    - ``near_peak``: fraction of the peak above which an element counts as near it.
     """
 
     growth: float = 3.0
@@ -38,18 +38,18 @@ class Refinement:
 
 
 STEP = 0.01
-"""Sizes are rounded to steps of this ratio: rounding errors of the solution, which differ from run
-to run, shall not make another mesh."""
+"""Sizes are rounded to steps of this ratio, so that rounding errors of the solution, which differ
+from run to run, do not change the mesh."""
 
 FINEST, COARSEST = 1 / 3, 1.3
-"""Bounds of an element's new size in units of its old one: one solution tells no more."""
+"""Bounds of an element's new size in units of its old one: one error estimate supports no more."""
 
 ENERGY_ORDER, STRESS_ORDER = 7 / 2, 2.0
 """Powers of the size in an element's error: stress of second order over a volume, or at a point."""
 
 
 def refined_sizes(solution: Solution, refinement: Refinement) -> Reals:
-    """Edge lengths the next mesh should have at the corners of this one, (n,), mm; 1 elsewhere."""
+    """Wanted edge lengths of the next mesh at the corners of this one, (n,), mm; 1 elsewhere."""
     mesh = solution.problem.mesh
     stress = element_stress(solution)
     ratio = np.minimum(
@@ -89,7 +89,7 @@ def _energy_ratios(mesh: Mesh, stress: ElementStress, growth: float) -> Reals:
 
 
 def _peak_ratios(solution: Solution, stress: ElementStress, refinement: Refinement) -> Reals:
-    """New over old sizes (e,) that resolve the peak; no demand elsewhere."""
+    """New over old sizes (e,) that resolve the peak; ``COARSEST`` elsewhere."""
     trusted = trusted_nodes(solution.problem)[solution.problem.mesh.tets]
     level = np.where(trusted, von_mises(stress.smoothed), 0.0)
     jumps = np.where(trusted, von_mises(stress.jumps), 0.0)

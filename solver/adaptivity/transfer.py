@@ -1,4 +1,4 @@
-"""Carry a solution to another mesh of the same body, to start Newton from there."""
+"""Interpolation of a solution to another mesh, as a start for Newton's method."""
 
 from __future__ import annotations
 
@@ -12,10 +12,12 @@ from solver.mesh.mesh import Mesh
 from solver.results.solution import Solution
 
 CANDIDATES = 24
+"""Elements with the nearest centres, in which a point is looked for."""
 
 OUTSIDE = 0.02
-"""A point this far outside in barycentric coordinates is in: two meshes of one curved body differ
-by more, and the extrapolation is as good as the interpolation."""
+"""Points outside of an element by no more than this, in barycentric coordinates, count as inside:
+two meshes of one curved body differ by more, and the extrapolation is as good as the interpolation.
+"""
 
 
 def transfer(solution: Solution, finer_mesh: Mesh) -> tuple[Reals, Reals]:

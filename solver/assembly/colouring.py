@@ -1,4 +1,4 @@
-"""An order of the elements that can be added in parallel, with the same sums on any threads."""
+"""Order of parallel assembly: sums that do not depend on the number of threads."""
 
 from __future__ import annotations
 

@@ -1,22 +1,22 @@
-"""Unilateral contact, without friction, with planes behind which a mirror image stands.
+"""Unilateral contact, without friction, of a body with its mirror images.
 
-Two bodies that mirror each other touch in the plane between them, so it is enough that no point
-crosses it. With g the signed distance of a point from its plane, positive where the body may be,
-and d = -g, the contact energy per reference area is
+Bodies that mirror each other touch in the plane between them, so it suffices that no point crosses
+that plane. With g the signed distance of a point from its plane, positive on the body's side, and
+d = -g, the contact energy per reference area is
 
     psi(d) = k d^3 / (6 s)                      for 0 < d < s,
              k (d^2 / 2 - s d / 2 + s^2 / 6)    beyond,            0 for d <= 0,
 
-a penalty of stiffness k (MPa/mm) that sets in over the depth s: pressure -dpsi/dg and its slope are
-continuous, so that Newton's method meets no jump. It is integrated by the six-point rule over the
-surface as it was at first. All planes are written as g = n . x + c. A fixed one has constant n and
-c; the moving one (``solver.assembly.moving_plane``) has
+a penalty of stiffness k (MPa/mm), smoothed over the depth s so that the pressure -dpsi/dg and its
+slope are continuous. It is integrated by the six-point rule over the reference surface. All planes
+are written as g = n . x + c. A fixed one has constant n and c; the moving one
+(``solver.assembly.moving_plane``) has
 
     n = (-cos t, 0, sin t),   c = (L + shift) cos t,   t = tilt,
 
 whose derivatives go into the unknowns tilt and shift. A node on that plane then has g = 0 whatever
 the unknowns are. Residual and tangent are derivatives of the energy, so the tangent is symmetric.
-Where nothing touches nothing is added, not even zeros.
+Without contact its sparsity pattern is that of the solid alone.
 """
 
 from __future__ import annotations
@@ -41,13 +41,13 @@ from solver.problem.problem import Contact, Problem
 from solver.problem.unknowns import Numbering
 
 SMOOTHING = 0.1
-"""s over the penetration that a contact asks for."""
+"""s over the penetration of a contact."""
 
 SOFTENING = 30.0
-"""Times softer a contact is while a load is tried again that could not be reached otherwise."""
+"""Factor on the penetration of contacts in the first of two stages (``Newton.correct``)."""
 
 INITIAL_CROSSING = 1e-6
-"""How far a surface may lie beyond its plane at first, in body diagonals: rounding."""
+"""Tolerance for rounding of surfaces beyond their planes at no load, in body diagonals."""
 
 
 @dataclass(frozen=True)
@@ -75,7 +75,7 @@ class ContactPair:
         return ContactPair(problem, contact, face)
 
     def plane(self, state: State) -> Plane:
-        """Where the plane is now."""
+        """The plane at a state."""
         return _plane_of(self.problem, self.contact, state)
 
     def gaps(self, state: State) -> Reals:
@@ -93,7 +93,7 @@ class ContactPair:
         return ContactPair(self.problem, replace(self.contact, penetration=depth), face)
 
     def entries(self, pattern: Pattern | None) -> Integers:
-        """Places of the triangles' entries in a pattern, (k, 210); none without one."""
+        """Positions of the triangles' entries in a pattern, (k, 210); (k, 0) without one."""
         if pattern is None:
             return np.empty((len(self.face.triangles), 0), np.int32)
         return pattern.entries(self.face.dofs)
@@ -104,10 +104,10 @@ class ContactPair:
 
 
 class Contacts:
-    """All contacts of a problem, and what they need of its tangent's pattern.
+    """All contacts of a problem, and the pattern of its tangent with them.
 
-    A surface that touches the moving plane couples with its tilt and shift. Places for that are
-    made only once something touches it: until then the pattern is the one without contact.
+    A surface in contact with the moving plane couples with its tilt and shift. The pattern has
+    entries for that only where there is such contact.
     """
 
     def __init__(
@@ -120,9 +120,9 @@ class Contacts:
 
     @contextmanager
     def softened(self) -> Iterator[None]:
-        """Contacts softer by ``SOFTENING`` for a while: their way of settling is shorter."""
+        """Context with contacts softer by ``SOFTENING``, for Newton's method to converge faster."""
         stiff = self._pairs
-        self._pairs = tuple(touch.softer(SOFTENING) for touch in stiff)
+        self._pairs = tuple(pair.softer(SOFTENING) for pair in stiff)
         try:
             yield
         finally:
@@ -131,30 +131,30 @@ class Contacts:
     def energy(self, state: State) -> float:
         """Energy of all contacts, N mm."""
         return float(
-            sum(face_energy(t.face, t.plane(state), state.displacement) for t in self._pairs)
+            sum(face_energy(p.face, p.plane(state), state.displacement) for p in self._pairs)
         )
 
     def depth(self, state: State) -> float:
-        """Depth (mm) over which a contact changes that is at work; infinite without one."""
-        active = (touch for touch in self._pairs if touch.touches(state))
-        return min((touch.contact.penetration for touch in active), default=np.inf)
+        """Least penetration (mm) of the active contacts; infinite without any."""
+        active = (pair for pair in self._pairs if pair.touches(state))
+        return min((pair.contact.penetration for pair in active), default=np.inf)
 
     def add(
         self, state: State, tangent: bool, residual: Reals, values: Reals
     ) -> tuple[Reals, Pattern]:
-        """Add the contact forces to ``residual``; the tangent with contact, and its pattern.
+        """Add contact forces to ``residual``; returns the tangent with contact, and its pattern.
 
         ``values`` are in the pattern without contact, and empty unless ``tangent``.
         """
-        active = [touch for touch in self._pairs if touch.touches(state)]
+        active = [pair for pair in self._pairs if pair.touches(state)]
         pattern = self._pattern
-        if tangent and any(touch.contact.axis is None for touch in active):
-            pattern, places = self._wide
-            narrow, values = values, np.zeros(len(pattern.indices))
-            values[places] = narrow
-        for touch in active:
+        if tangent and any(pair.contact.axis is None for pair in active):
+            pattern, places = self._widened
+            solid, values = values, np.zeros(len(pattern.indices))
+            values[places] = solid
+        for pair in active:
             assemble_contact(
-                touch.face, touch.entries(pattern if tangent else None), touch.plane(state),
+                pair.face, pair.entries(pattern if tangent else None), pair.plane(state),
                 self._heights(state), state.plane[0], np.ascontiguousarray(state.displacement),
                 tangent, residual, values,
             )  # fmt: skip
@@ -167,9 +167,9 @@ class Contacts:
         return self._plane.heights(state)
 
     @cached_property
-    def _wide(self) -> tuple[Pattern, Integers]:
-        """The pattern with contact at the moving plane, and where the other's entries are in it."""
-        cells = [touch.face.dofs for touch in self._pairs if touch.contact.axis is None]
+    def _widened(self) -> tuple[Pattern, Integers]:
+        """Pattern with contact at the moving plane, and positions of the solid's entries in it."""
+        cells = [pair.face.dofs for pair in self._pairs if pair.contact.axis is None]
         return widened(self._pattern, np.concatenate(cells))
 
 
@@ -177,21 +177,21 @@ def lowest_gaps(problem: Problem, displacement: Reals, plane: Reals) -> tuple[fl
     """Least signed distance from its plane of each of the problem's contacts, mm.
 
     ``displacement`` (n, 3) in mm; ``plane`` (2,) tilt (rad) and shift (mm) of the moving plane.
-    Negative where something touches: by so much the penalty lets it through.
+    Negative in contact: minus the penetration, which the penalty allows.
     """
     from solver.problem.unknowns import number_unknowns
 
     state = State(displacement, np.zeros(0), np.asarray(plane, float))
     numbering = number_unknowns(problem.mesh, problem.supports, problem.moving_plane)
-    touches = (ContactPair.of(problem, each, numbering) for each in problem.contacts)
-    return tuple(float(touch.gaps(state).min(initial=np.inf)) for touch in touches)
+    pairs = (ContactPair.of(problem, each, numbering) for each in problem.contacts)
+    return tuple(float(pair.gaps(state).min(initial=np.inf)) for pair in pairs)
 
 
 def image_gaps(problem: Problem, displacement: Reals, plane: Reals) -> tuple[float | None, ...]:
-    """Narrowest air (mm) between each contact's surface and its mirror image; None: no facing one.
+    """Least gap (mm) between each contact's surface and its mirror image; None: no facing parts.
 
-    Arguments as for ``lowest_gaps``. Seen from flat facets; but where the surface touches its
-    image, by how far the two run into each other, negative.
+    Arguments as for ``lowest_gaps``. Computed from flat facets; in contact minus the overlap of the
+    surface and its image.
     """
     state = State(displacement, np.zeros(0), np.asarray(plane, float))
     lowest = lowest_gaps(problem, displacement, plane)
@@ -217,7 +217,7 @@ def _areas(mesh: Mesh, triangles: Integers) -> Reals:
 def _dofs(
     problem: Problem, contact: Contact, triangles: Integers, numbering: Numbering
 ) -> Integers:
-    """Unknowns of triangles (k, 20): the moving plane's where they matter, else -1."""
+    """Unknowns of triangles (k, 20): the moving plane's where they couple, else -1."""
     moving = problem.moving_plane
     on_plane = () if moving is None else problem.mesh.surface_nodes(moving)
     plane = np.broadcast_to(numbering.plane, (len(triangles), 2)).copy()
@@ -227,9 +227,9 @@ def _dofs(
 
 
 def _plane_of(problem: Problem, contact: Contact, state: State) -> Plane:
-    """Where a contact's plane is now."""
+    """A contact's plane at a state."""
     if contact.axis is None:
-        return _moving_plane(_end(problem), state.plane)
+        return _moving_plane(_initial_x(problem), state.plane)
     middle = problem.mesh.nodes[:, contact.axis].mean()
     side = 1.0 if middle >= contact.position else -1.0  # where the body is
     equation = np.zeros(4)
@@ -238,26 +238,26 @@ def _plane_of(problem: Problem, contact: Contact, state: State) -> Plane:
 
 
 def _moving_plane(end: float, motion: Reals) -> Plane:
-    """The moving plane, at x = ``end`` at first, after ``motion`` (2,): tilt and shift."""
+    """The moving plane, initially at x = ``end``, after ``motion`` (2,): tilt and shift."""
     sine, cosine, reach = np.sin(motion[0]), np.cos(motion[0]), end + motion[1]
     equation = np.array([-cosine, 0.0, sine, reach * cosine])
     turned = np.array([sine, 0.0, cosine, -reach * sine])
     return Plane(equation, turned, -equation, float(cosine), -float(sine))
 
 
-def _end(problem: Problem) -> float:
-    """x of the moving plane at first, mm."""
+def _initial_x(problem: Problem) -> float:
+    """x of the moving plane in the undeformed body, mm."""
     assert problem.moving_plane is not None
     return float(problem.mesh.nodes[problem.mesh.surface_nodes(problem.moving_plane)[0], 0])
 
 
-def _check_apart(problem: Problem, touches: tuple[ContactPair, ...]) -> None:
-    """Raise ``SolverError`` if a surface lies beyond its plane from the start."""
+def _check_apart(problem: Problem, pairs: tuple[ContactPair, ...]) -> None:
+    """Raise ``SolverError`` if a surface of the undeformed body lies beyond its plane."""
     still = State.zero(problem)
-    for touch in touches:
-        lowest = float(touch.gaps(still).min(initial=0.0))
+    for pair in pairs:
+        lowest = float(pair.gaps(still).min(initial=0.0))
         if lowest < -INITIAL_CROSSING * problem.mesh.size:
             raise SolverError(
-                f"contacts: the surface {touch.contact.surface!r} lies {-lowest:.3g} mm beyond its "
+                f"contacts: the surface {pair.contact.surface!r} lies {-lowest:.3g} mm beyond its "
                 "plane before any load; it must be on one side."
             )

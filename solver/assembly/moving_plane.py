@@ -1,13 +1,13 @@
-"""A section that stays plane while it turns about y and shifts along x.
+"""A section that stays plane while it rotates about y and shifts along x.
 
-In the middle of a uniform chain of cells every cell deforms alike, so the plane through the middle
-of a gap stays plane: the chain goes on behind it. Its nodes are at
+Within a uniform chain all cells deform alike, so that the plane of symmetry between two of them
+stays plane. Its nodes are at
 
     x = L + shift + h sin(tilt),   z = h cos(tilt),
 
-L being the plane's x and h a node's height in the plane, z at first. The unknowns are the y and h
-of each node, and tilt and shift of all of them; the kernels do the chain rule. Tilts are positive
-from z to x, like all rotations here, and must stay below 90 degrees.
+L being the plane's initial x and h a node's height in the plane, initially z. The unknowns are the
+y and h of each node, and tilt and shift of all of them; the kernels apply the chain rule. Tilts are
+positive from z to x, like all rotations here, and must stay below 90 degrees.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from solver.problem.supports import pin
 
 @dataclass(frozen=True)
 class MovingPlane:
-    """Nodes (k,) of a mesh on the plane, their positions (k, 3) at first, and which one is held."""
+    """Nodes (k,) on the plane, their reference positions (k, 3), and the index of the held one."""
 
     nodes: Integers
     positions: Reals
@@ -55,7 +55,7 @@ class MovingPlane:
         return result
 
     def finite(self, state: State, increment: State, moved: State) -> State:
-        """``moved`` with the plane's nodes where the increment from ``state`` takes them."""
+        """``moved`` with the plane's nodes displaced by the increment from ``state``."""
         heights = self._heights(state) + increment.displacement[self.nodes, 2]
         tilt, shift = plane = state.plane + increment.plane
         displacement = moved.displacement.copy()
@@ -64,7 +64,7 @@ class MovingPlane:
         return State(displacement, moved.hydrostatic_pressure, plane)
 
     def fitted(self, state: State) -> State:
-        """``state`` with the tilt and shift its displacement has, raised until the pin is held."""
+        """``state`` with tilt and shift fitted, moved along z until the pin has its height."""
         moved = (self.positions + state.displacement[self.nodes])[:, [0, 2]]
         centre = moved.mean(axis=0)
         _, _, axes = np.linalg.svd(moved - centre, full_matrices=False)

@@ -6,12 +6,12 @@ by shape functions, so the six-point rule integrates everything here exactly.
 The derivative of N_a n da is not symmetric on one triangle. Summed over a surface whose rim is
 either held or slides in a symmetry plane, the skew parts cancel (they are rim integrals: the
 force is minus the gradient of P times the enclosed volume), so only the symmetric part is
-assembled. On a surface with a free rim the force stays right and Newton's tail turns linear.
+assembled. With a free rim the force is still exact, but Newton's method converges linearly.
 
 Where the rim slides in a moving plane, the pressure also acts on the plane through the opening.
-There the enclosed volume is differentiated itself, written as minus the integral of y n_y: what
-closes the cavity, the plane y = 0 and planes that turn about y, adds nothing to it, so that the
-resultant and the moment on the opening come out without a mesh of the opening.
+There the enclosed volume is differentiated directly, written as minus the integral of y n_y: what
+closes the cavity, the plane y = 0 and planes that rotate about y, contributes nothing, so that the
+resultant and the moment on the opening need no mesh of the opening.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from solver.mesh.mesh import Mesh
 def pressure_facets(
     mesh: Mesh, triangles: Integers, dofs: Integers, entries: Integers
 ) -> PressureFacets:
-    """Triangles (k, 6) of a mesh with the places of their unknowns."""
+    """Triangles (k, 6) of a mesh, with the positions of their unknowns."""
     rule = triangle_rule()
     return PressureFacets(
         mesh.nodes, triangles, rule.quadratic, rule.gradients, rule.weights, dofs, entries
@@ -37,9 +37,9 @@ def pressure_facets(
 def enclosed_volume(mesh: Mesh, displacement: Reals, surfaces: tuple[str, ...]) -> float:
     """Volume inside closed surfaces of the deformed mesh, mm^3.
 
-    Minus the integral of y n_y, with the normals out of the solid and so into the cavity. What is
-    missing to a closed surface must lie in the plane y = 0 or in planes along y, such as the cuts
-    through a cell: they add nothing.
+    Minus the integral of y n_y, with the normals out of the solid and so into the cavity. Openings
+    of the surface must lie in the plane y = 0 or in planes along y, such as the cuts through a
+    cell: they contribute nothing.
     """
     rule = triangle_rule()
     x = (mesh.nodes + displacement)[mesh.triangles(*surfaces)]

@@ -1,8 +1,9 @@
-"""Far units: lengths or moduli so many powers of ten from mm and MPa that pivots look like zeros.
+"""Scaling of the unknowns where lengths or moduli are many powers of ten from mm and MPa.
 
-A displacement's pivots are of the order of mu h, the coupling with a pressure of h^2, for a shear
-modulus mu and elements of size h. With unknowns scaled by (mu h)^(-1/2) and (mu / h^3)^(1/2) all of
-them are of order 1, whatever the units are. The factors are powers of two: they round nothing.
+Unscaled, a linear solver would take pivots for zeros there. A displacement's pivots are of the
+order of mu h, the coupling with a pressure of h^2, for a shear modulus mu and elements of size h.
+With unknowns scaled by (mu h)^(-1/2) and (mu / h^3)^(1/2) all of them are of order 1, whatever the
+units are. The factors are powers of two, so that scaling is exact.
 """
 
 from __future__ import annotations
@@ -20,14 +21,14 @@ LENGTHS, MODULI = (1e-2, 1e2), (1e-4, 1e4)
 
 
 def factors(problem: Problem, numbering: Numbering) -> Reals | None:
-    """Scale of each unknown (m,), or None where units are near enough to mm and MPa."""
+    """Scale of each unknown (m,), or None where none is needed."""
     edge, mu, size = problem.mesh.edge, problem.material.shear_modulus, problem.mesh.size
     if LENGTHS[0] <= edge <= LENGTHS[1] and MODULI[0] <= mu <= MODULI[1]:
         return None
     scale = np.full(numbering.size, (mu * edge) ** -0.5)
     scale[numbering.pressure] = (mu / edge**3) ** 0.5
     if numbering.plane[0] >= 0:
-        scale[numbering.plane[0]] /= size  # a tilt moves what is a body's size away
+        scale[numbering.plane[0]] /= size  # displaces points by tilt times size
     return np.exp2(np.rint(np.log2(scale)))
 
 
@@ -58,7 +59,7 @@ class Scaled:
         return self._solver.odd_negative
 
     def analyze(self, pattern: Pattern) -> None:
-        """Also where every entry's factor is."""
+        """Analyze the pattern, and compute each entry's factor."""
         rows = np.repeat(self._scale, np.diff(pattern.indptr))
         self._products = rows * self._scale[pattern.indices]
         self._solver.analyze(pattern)

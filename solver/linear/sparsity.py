@@ -1,6 +1,6 @@
-"""The sparsity pattern of the tangent, and where every element's entries lie in it.
+"""The sparsity pattern of the tangent, and the positions of element entries in it.
 
-Computed once per mesh; afterwards the kernels add element matrices straight into CSR values.
+Computed once per mesh; afterwards the kernels add element matrices directly to CSR values.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ class Pattern:
     indices: Integers
 
     def entries(self, dofs: Integers) -> Integers:
-        """Places in the values of each cell's upper triangle, row by row; -1 where prescribed.
+        """Positions in the values of each cell's upper triangle, row by row; -1 where prescribed.
 
         ``dofs`` (e, m) unknowns of each cell -> (e, m (m + 1) / 2).
         """
@@ -47,7 +47,7 @@ def upper_pattern(dofs: Integers, size: int) -> Pattern:
 
 
 def widened(pattern: Pattern, dofs: Integers) -> tuple[Pattern, Integers]:
-    """A pattern that also couples the unknowns within cells (e, m), and the old entries' places."""
+    """Pattern that also couples unknowns within cells (e, m), and positions of the old entries."""
     size = len(pattern.indptr) - 1
     rows = np.repeat(np.arange(size), np.diff(pattern.indptr))
     old = rows * size + pattern.indices
@@ -62,7 +62,7 @@ def widened(pattern: Pattern, dofs: Integers) -> tuple[Pattern, Integers]:
 
 
 def incidence(table: Integers, size: int) -> tuple[Integers, Integers]:
-    """Which rows of ``table`` name each number below ``size``, as CSR (pointer, rows)."""
+    """Rows of ``table`` that contain each number below ``size``, as CSR (pointer, rows)."""
     flat = table.ravel()
     rows = np.repeat(np.arange(len(table), dtype=np.int32), table.shape[1])[flat >= 0]
     flat = flat[flat >= 0]

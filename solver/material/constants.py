@@ -9,9 +9,9 @@ from solver.arrays import Reals
 
 @dataclass(frozen=True, eq=False)
 class Constants:
-    """A law by its ``number`` in the table of laws, and its constants as its functions take them.
+    """A law by its ``number`` in the table of laws, and the constants that its functions take.
 
-    ``values`` (c,) may be of either sign: whether the material is stable is another question.
+    ``values`` (c,) may be of either sign; ``solver.material.stability`` checks them.
     """
 
     number: int

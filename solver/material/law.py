@@ -1,4 +1,4 @@
-"""What every hyperelastic law has: a volumetric part, and constants for the compiled functions."""
+"""Base of the hyperelastic laws: volumetric part, and constants for the compiled functions."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ class Hyperelastic:
     """Base of the laws: an energy of the isochoric stretches, and a volumetric part.
 
     An infinite ``bulk_modulus`` K (MPa) means J = 1; a finite one adds K (J - 1)^2 / 2 if
-    ``volumetric`` is "quadratic", K (J^2 - 1 - 2 ln J) / 4 if it is "logarithmic", the law that
-    resists without bound as J goes to 0.
+    ``volumetric`` is "quadratic", K (J^2 - 1 - 2 ln J) / 4 if it is "logarithmic", whose
+    stress is unbounded as J goes to 0.
     """
 
     law: ClassVar[str]
@@ -68,7 +68,7 @@ class Hyperelastic:
         return deviator
 
     def _check_volumetric(self) -> None:
-        """Raise ``SolverError`` for a volumetric part that is none."""
+        """Raise ``SolverError`` for an invalid volumetric part."""
         name = type(self).__name__
         if not self.bulk_modulus > 0:
             raise SolverError(

@@ -23,11 +23,10 @@ from types import ModuleType
 
 @dataclass(frozen=True)
 class Law:
-    """A row: the law's ``name`` in files, and the ``module`` beside this one that implements it.
+    """A row of the table: the law's ``name`` in files, and the ``module`` that implements it.
 
     ``constants``: their names in files. The energy is linear in them, in MPa; they may be of either
-    sign, and what remains stable is asked of the law. Ogden's, of any number and not linear, have
-    no such names.
+    sign. Ogden's, of any number and not linear, have no such names.
     """
 
     name: str

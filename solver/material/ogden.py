@@ -1,11 +1,11 @@
 """Ogden's law in Abaqus's form, any number of terms, with Yeoh's higher ones.
 
 W = sum 2 mu / alpha^2 (sum_i exp(alpha e_i) - 3) of isochoric principal log stretches e_i is
-evaluated with phi1(x) = expm1(x) / x and phi2(x) = (exp(x) - 1 - x) / x^2, which need no switch at
-equal stretches nor at alpha -> 0 (Hencky). Yeoh's terms sum C_i0 (I1 - 3)^i of order i >= 2 have
-the first and second derivatives W' and W'' by I1. They act as an Ogden term of mu = 2 W' and
-alpha = 2 whose mu depends on the strain, which adds 4 W'' l_i^2 l_j^2, of rank one, to the
-derivatives of the stress.
+evaluated with phi1(x) = expm1(x) / x and phi2(x) = (exp(x) - 1 - x) / x^2, which need no case
+distinction at equal stretches nor at alpha -> 0 (Hencky). Yeoh's terms sum C_i0 (I1 - 3)^i of order
+i >= 2 have the first and second derivatives W' and W'' by I1. They act as an Ogden term of
+mu = 2 W' and alpha = 2 whose mu depends on the strain, which adds 4 W'' l_i^2 l_j^2, of rank one,
+to the derivatives of the stress.
 
 Constants as the compiled functions take them: the number of terms n, mu (n,), alpha (n,), and
 C20, C30, ... of any number.
@@ -40,8 +40,8 @@ class Ogden(Hyperelastic):
     mu_k (ln^2 l1 + ln^2 l2 + ln^2 l3).
 
     Positive mu_k are Hill's inequality in this form: such a material is stable at every strain as
-    long as no ``higher`` is negative. Negative ones, common in Yeoh's model, are taken, and are
-    stable up to some strain only.
+    long as no ``higher`` is negative. Negative ones, common in Yeoh's model, are allowed; such a
+    material is stable up to some strain only.
 
     Attributes:
         mu: moduli, MPa; positive.
@@ -196,7 +196,7 @@ def higher_moduli(x: float, constants: Reals) -> tuple[float, float]:
 
 @compiled()
 def _add_rank_one(e: Reals, factor: float, hessian: Reals) -> None:
-    """Add ``factor`` times d_i d_j, where d_i = l_i^2 - 1; the 1 is no deviator."""
+    """Add ``factor`` times d_i d_j, where d_i = l_i^2 - 1; the 1 has no deviatoric part."""
     squares = np.empty(3)
     for i in range(3):
         squares[i] = 2.0 * e[i] * phi1(2.0 * e[i])

@@ -1,14 +1,14 @@
-"""Where a material is stable: Hill's and Drucker's inequality, at any strain and along tests.
+"""Stability of a material: Hill's and Drucker's inequality, at any strain and along tests.
 
-An incompressible material is stable at a state if every small change of strain costs work,
+An incompressible material is stable at a state if every small change of strain needs work,
 dτ : dε > 0 with Kirchhoff stress τ and logarithmic strain ε. For changes along the principal axes
 this is Drucker's postulate as Abaqus checks it: ∂²W/∂eᵢ∂eⱼ must be positive definite on changes
 that keep the volume. For all changes it is Hill's inequality: shear between axes i and j also needs
 (τᵢ − τⱼ)/(eᵢ − eⱼ) > 0 (Baker and Ericksen). Ogden's law, where every μ is positive and no Cᵢ₀
-negative, keeps both at every strain; constants of mixed signs have to be asked state by state.
+negative, satisfies both at every strain; constants of mixed signs are checked state by state.
 
-Stable material may still neck: past a peak of the nominal stress a dead load finds no equilibrium.
-That peak is reported by itself.
+Stable material may still neck: there is no homogeneous equilibrium under a dead load above a
+maximum of the nominal stress. That maximum is reported separately.
 """
 
 from __future__ import annotations
@@ -25,17 +25,17 @@ from solver.material.homogeneous import MODES, Mode
 from solver.material.states import responses
 
 LOWEST, HIGHEST = 0.1, 10.0
-"""Stretches between which is looked, along every test."""
+"""Bounds of the stretches that are checked along every test."""
 
 STEPS = 400
-"""Stretches looked at on either side of 1, evenly in the logarithm."""
+"""Number of stretches checked on either side of 1, evenly spaced in the logarithm."""
 
 
 @dataclass(frozen=True)
 class StableRange:
     """Stretches around 1 over which one test is stable, and up to which its load rises.
 
-    Ends at ``LOWEST`` and ``HIGHEST`` mean that no end was found.
+    Ends at ``LOWEST`` and ``HIGHEST`` mean that the test is stable over all stretches checked.
     """
 
     mode: str
@@ -45,7 +45,7 @@ class StableRange:
 
     @property
     def complete(self) -> bool:
-        """True if no end was found."""
+        """True if the test is stable over all stretches checked."""
         return self.lowest <= LOWEST and self.highest >= HIGHEST
 
     def covers(self, low: float, high: float) -> bool:
@@ -55,7 +55,7 @@ class StableRange:
 
 @dataclass(frozen=True)
 class Stability:
-    """What ``stability`` found; ``shear_modulus`` is the initial one, MPa."""
+    """Stable ranges of all tests; ``shear_modulus`` is the initial one, MPa."""
 
     shear_modulus: float
     ranges: tuple[StableRange, ...]
@@ -90,7 +90,7 @@ def drucker_margin(logs: Reals, constants: Constants) -> Reals:
 
     ``logs`` are isochoric principal log stretches; where it is not positive Drucker's inequality
     fails. On the plane of isochoric changes the Hessian H has the determinant 1ᵀ adj(H) 1 / 3,
-    which cancels nothing where one axis is far stiffer than the others.
+    which is free of cancellation where one axis is far stiffer than the others.
     """
     hessian = responses(logs, constants).hessian
     trace = np.trace(hessian, axis1=1, axis2=2) - hessian.sum(axis=(1, 2)) / 3

@@ -1,4 +1,4 @@
-"""Meshes that would give numbers but no sense: told before anything is solved."""
+"""Checks of a mesh and its loaded surfaces, before anything is solved."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from solver.mesh.elements import TRIANGLE_EDGES
 from solver.mesh.mesh import Mesh
 
 FACES = ((0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2))
-"""Corners of a tetrahedron's faces, in order as seen from outside."""
+"""Corners of a tetrahedron's faces, with outward normals."""
 
 
 def check_mesh(mesh: Mesh, pressurised: tuple[str, ...], loaded: tuple[str, ...] = ()) -> None:
-    """Raise ``SolverError`` for a mesh that is no body, or surfaces that carry no load.
+    """Raise ``SolverError`` unless a mesh is a body and its loaded surfaces are on its boundary.
 
     A face belongs to one or two tetrahedra; the triangles of ``pressurised`` and otherwise
-    ``loaded`` surfaces are faces of one, seen from outside. Pressure acts on a triangle once.
+    ``loaded`` surfaces are faces of one, with outward normals. No triangle is pressurised twice.
     """
     if len(mesh.tets) == 0:
         raise SolverError("mesh: it has no tetrahedra.")
@@ -85,5 +85,5 @@ def _key(triangles: Integers, mesh: Mesh) -> NDArray[np.int64]:
 
 
 def _place(mesh: Mesh, triangle: Integers) -> str:
-    """The middle of a triangle."""
+    """Centroid of a triangle's corners, as text."""
     return f"({', '.join(f'{x:.4g}' for x in mesh.nodes[triangle[:3]].mean(axis=0))})"

@@ -1,4 +1,4 @@
-"""Which nodes hang together."""
+"""Connected parts of a mesh."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def connected_parts(cells: Integers, size: int) -> Integers:
 
 @njit(cache=True)
 def _root(parent: NDArray[np.int64], node: int) -> int:
-    """Where the parents of a node end; the way there is halved for the next time."""
+    """Root of a node in the union-find forest, with path halving."""
     while parent[node] != node:
         parent[node] = parent[parent[node]]
         node = parent[node]

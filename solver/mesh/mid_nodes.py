@@ -1,7 +1,8 @@
 """Curved quadratic tetrahedra with a positive Jacobian everywhere.
 
-Moving mid-nodes onto a curved surface can fold an element over. Where it does, its mid-nodes are
-drawn back towards the straight edges, which are always valid, only as far as needed.
+Mid-nodes on a curved surface can make the Jacobian determinant of an element negative somewhere:
+the element is folded. Its mid-nodes are then moved towards the middles of the straight edges, which
+are always valid, only as far as needed.
 """
 
 from __future__ import annotations
@@ -14,9 +15,10 @@ from solver.arrays import Integers, Reals
 from solver.mesh.elements import TETRAHEDRON_EDGES, quadratic_gradients
 
 SMALLEST_RATIO = 0.1
-"""Least ratio of smallest to mean Jacobian determinant that counts as a good element."""
+"""Least ratio of smallest to mean Jacobian determinant of a valid element."""
 
 SWEEPS = 12
+"""Most halvings of a mid-node's distance from the straight edge."""
 
 
 def jacobian_ratios(nodes: Reals, tets: Integers) -> Reals:
@@ -31,7 +33,7 @@ def jacobian_ratios(nodes: Reals, tets: Integers) -> Reals:
 
 
 def relaxed(nodes: Reals, tets: Integers) -> Reals:
-    """``nodes`` (n, 3) with the mid-nodes of folded or nearly folded elements drawn back."""
+    """``nodes`` (n, 3) with the mid-nodes of folded or nearly folded elements moved back."""
     middles = tets[:, 4:]
     ends = np.stack([tets[:, list(edge)] for edge in TETRAHEDRON_EDGES], axis=1)
     straight = nodes.copy()

@@ -1,4 +1,4 @@
-"""How close a deformed surface comes to itself across the air: rays along its outward normals."""
+"""Gaps between facing parts of deformed surfaces, by rays along their outward normals."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ OPPOSING = -0.5
 """Cosine between the normals of two facets, at most, for them to face each other."""
 
 LIFT = 1e-4
-"""mm. A ray starts this far above its facet, so as not to hit it."""
+"""Distance of a ray's start from its facet, mm, so that it does not hit that facet."""
 
 
 @dataclass(frozen=True)
 class Gaps:
-    """Pairs of facets of a surface that look at each other across the air, one per ray.
+    """Pairs of facing facets, one per ray.
 
-    - ``distances`` (k,): width of the air between them, mm; negative where a facet lies inside
-      the body, by how far.
+    - ``distances`` (k,): width of the gap between them, mm; where a facet lies inside the body,
+      minus its depth.
     - ``starts``, ``ends`` (k, 3): centres of the two facets in the undeformed body, mm.
     """
 
@@ -35,37 +35,37 @@ class Gaps:
 def facing_gaps(
     mesh: Mesh, displacement: Reals, *surfaces: str, seen_from: Sequence[str] | None = None
 ) -> Gaps:
-    """Gaps of ``surfaces`` to each other after ``displacement`` (n, 3), seen from every facet.
+    """Gaps of ``surfaces`` to each other after ``displacement`` (n, 3), by a ray from each facet.
 
-    ``seen_from``: those of the surfaces whose facets look out; without it all of them.
+    ``seen_from``: those of the surfaces from whose facets rays start; by default all.
 
-    Together the surfaces should close the body: a ray that slips in through a hole meets walls
-    from within and passes for an overlap.
+    Together the surfaces should bound the body: a ray that enters it through an opening hits walls
+    from inside, which counts as an overlap.
 
     Six-node triangles are split into four flat facets. A ray from each runs outwards to the first
-    facet it meets; it counts if the two face each other, or if it leaves the body there, which
-    means that it began inside.
+    facet that it hits; it counts if the two face each other, or if it leaves the body there, which
+    means that it started inside.
     """
     import trimesh
 
-    looking = surfaces if seen_from is None else tuple(seen_from)
-    others = tuple(name for name in surfaces if name not in looking)
-    outlook = _flat_facets(mesh.triangles(*looking))
-    facets = np.concatenate([outlook, _flat_facets(mesh.triangles(*others))])
+    sources = surfaces if seen_from is None else tuple(seen_from)
+    others = tuple(name for name in surfaces if name not in sources)
+    starts = _flat_facets(mesh.triangles(*sources))
+    facets = np.concatenate([starts, _flat_facets(mesh.triangles(*others))])
     body = trimesh.Trimesh(mesh.nodes + displacement, facets, process=False)
     centres, normals = body.triangles_center, body.face_normals
-    rays, met, ahead = _first_met(
-        body, centres, normals, only=np.arange(len(outlook), dtype=np.int32)
+    rays, hit, ahead = _first_hits(
+        body, centres, normals, only=np.arange(len(starts), dtype=np.int32)
     )
-    cosine = np.einsum("ki,ki->k", normals[rays], normals[met])
+    cosine = np.einsum("ki,ki->k", normals[rays], normals[hit])
     kept = np.abs(cosine) >= -OPPOSING
-    rays, met, ahead, inside = rays[kept], met[kept], ahead[kept], cosine[kept] > 0
+    rays, hit, ahead, inside = rays[kept], hit[kept], ahead[kept], cosine[kept] > 0
     behind = np.full(len(centres), np.inf)
-    back, _, depths = _first_met(body, centres, -normals, only=np.unique(rays[inside]))
+    back, _, depths = _first_hits(body, centres, -normals, only=np.unique(rays[inside]))
     behind[back] = depths
     signed = np.where(inside, -np.minimum(ahead, behind[rays]), ahead)
     reference = mesh.nodes[facets].mean(axis=1)
-    return Gaps(signed, reference[rays], reference[met])
+    return Gaps(signed, reference[rays], reference[hit])
 
 
 def facet_normals(mesh: Mesh, displacement: Reals, *surfaces: str) -> tuple[Reals, Reals]:
@@ -76,16 +76,16 @@ def facet_normals(mesh: Mesh, displacement: Reals, *surfaces: str) -> tuple[Real
     return corners.mean(axis=1), normals
 
 
-def _first_met(
+def _first_hits(
     body: Any, origins: Reals, directions: Reals, only: Integers | None = None
 ) -> tuple[Integers, Integers, Reals]:
-    """Rays that meet a facet, the facets, and how far away each is, mm."""
+    """Rays that hit a facet, the first facet of each, and its distance, mm."""
     chosen = np.arange(len(origins)) if only is None else only
     start, along = origins[chosen], directions[chosen]
-    hits, rays, met = body.ray.intersects_location(
+    points, rays, hit = body.ray.intersects_location(
         start + LIFT * along, along, multiple_hits=False
     )[0:3]
-    return chosen[rays], met, np.linalg.norm(hits - start[rays], axis=1)
+    return chosen[rays], hit, np.linalg.norm(points - start[rays], axis=1)
 
 
 def _flat_facets(triangles: Integers) -> Integers:

@@ -1,6 +1,6 @@
-"""Gmsh itself: a CAD file to nodes and tetrahedra, as plain arrays.
+"""Calls of Gmsh: from a CAD file to nodes and tetrahedra as plain arrays.
 
-Runs in the mesher's process, which is why it imports nothing of the project.
+Runs in the meshing process, and so imports nothing of the project.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ FIXED = {
 
 
 class Refusal(Exception):
-    """Gmsh makes no mesh of this; the message says why."""
+    """Gmsh cannot mesh this; the message says why."""
 
 
 class OtherFaces(Exception):

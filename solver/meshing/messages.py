@@ -1,4 +1,4 @@
-"""What the program and its mesher say to each other over a pipe: numbers by name, never objects.
+"""Messages between the program and its meshing process over a pipe: values and arrays by name.
 
 A message is the length of its head in eight bytes, the head as JSON, and then the arrays' bytes as
 they lie in memory: both ends run on one machine, so numbers arrive bit by bit as they were sent.
@@ -27,7 +27,7 @@ class Message:
 
 
 def send(stream: RawIOBase, message: Message) -> None:
-    """Write ``message`` to an unbuffered ``stream``. Raises ``OSError`` if nobody reads it."""
+    """Write ``message`` to an unbuffered ``stream``. Raises ``OSError`` if the reader closed it."""
     arrays = {name: np.ascontiguousarray(array) for name, array in message.arrays.items()}
     forms = [[name, array.dtype.str, array.shape] for name, array in arrays.items()]
     head = json.dumps({"values": message.values, "arrays": forms}).encode()
@@ -37,7 +37,7 @@ def send(stream: RawIOBase, message: Message) -> None:
 
 
 def receive(stream: RawIOBase) -> Message | None:
-    """The next message from an unbuffered ``stream``; None where it ends, even half-way."""
+    """The next message from an unbuffered ``stream``; None at its end, also within a message."""
     try:
         head = json.loads(_read(stream, int.from_bytes(_read(stream, LENGTH_BYTES), "little")))
         arrays = {name: _array(stream, kind, shape) for name, kind, shape in head["arrays"]}

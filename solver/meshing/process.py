@@ -1,8 +1,8 @@
-"""Gmsh in a process of its own, which can be ended, and whose crash is not ours.
+"""Gmsh in a process of its own, which can be ended, and whose crash does not end the program.
 
-One such process serves all meshes of a program, one after the other. It is started with
-``start`` where that is worth a hint, else with the first mesh; it ends with the program, however
-that ends, and it never sees a terminal's Ctrl-C: whoever asked for a mesh ends it.
+One such process makes all meshes of a program, one after the other. It is started in advance by
+``start``, or with the first mesh. It ends with the program, however that ends. It gets no Ctrl-C of
+a terminal: the program, which is interrupted, ends it.
 """
 
 from __future__ import annotations
@@ -28,15 +28,15 @@ from solver.meshing.messages import Message, receive, send
 DEFAULT_SECONDS = 120.0
 """Time limit of one mesh, s. The largest that fits into 8 GiB takes half of that."""
 
-BETWEEN_LOOKS = 0.2
-"""s. So often a waiting program looks whether it was interrupted, where the system does not say."""
+POLL_SECONDS = 0.2
+"""Interval, s, at which a waiting program checks for interrupts that do not end the wait."""
 
-GOODBYE = 2.0
-"""s. What the process gets to clear up before it is killed."""
+EXIT_SECONDS = 2.0
+"""Time, s, to clean up and exit, after which the process is killed."""
 
 
 class MesherTimeout(Exception):
-    """The mesh was not done in time; the process is gone."""
+    """The mesh was not finished in time; the process was ended."""
 
 
 class MesherCrash(Exception):
@@ -44,7 +44,7 @@ class MesherCrash(Exception):
 
 
 def start() -> None:
-    """Start the process now, so that it can load Gmsh while the caller does something else."""
+    """Start the process, which then loads Gmsh in parallel to the program."""
     _mesher(os.getpid()).start()
 
 
@@ -57,38 +57,40 @@ def ask(job: Message, seconds: float) -> Message:
 
 
 def process_id() -> int:
-    """Number of the process, which is started if need be."""
+    """Number of the process, which is started if none is running."""
     return _mesher(os.getpid()).start()
 
 
 @cache
 def _mesher(process: int) -> _Mesher:
-    """The one of this program; a forked copy of the program gets its own."""
+    """The mesher of this program; a forked copy of the program gets its own."""
     return _Mesher()
 
 
 class _Mesher:
-    """Keeps one process at hand."""
+    """Keeps one process running, and starts another after a failure."""
 
     def __init__(self) -> None:
-        self._turn = threading.Lock()
+        self._lock = threading.Lock()
         self._process: _Process | None = None
 
     def start(self) -> int:
-        with self._turn:
-            return self._ready().number
+        with self._lock:
+            return self._running().number
 
     def ask(self, job: Message, seconds: float) -> Message:
-        with self._turn:
-            process = self._ready()
+        with self._lock:
+            process = self._running()
             try:
                 return process.ask(job, seconds)
-            except BaseException:  # an interrupt too: its answer would come to the next job
+            except (
+                BaseException
+            ):  # an interrupt too: its answer would be taken for that of the next job
                 self._process = None
                 process.end()
                 raise
 
-    def _ready(self) -> _Process:
+    def _running(self) -> _Process:
         if self._process is None or not self._process.alive:
             if self._process is not None:
                 self._process.end()
@@ -105,7 +107,7 @@ class _Process:
         self._requests = cast(FileIO, self._process.stdin)
         self._answers: SimpleQueue[Message | None] = SimpleQueue()
         listener = threading.Thread(
-            target=_listen, args=(self._process.stdout, self._answers), daemon=True
+            target=_queue_answers, args=(self._process.stdout, self._answers), daemon=True
         )
         listener.start()
         self.end = weakref.finalize(self, _end, os.getpid(), self._process, self._folder, listener)
@@ -120,43 +122,43 @@ class _Process:
 
     def ask(self, job: Message, seconds: float) -> Message:
         deadline = time.monotonic() + seconds
-        with suppress(OSError):  # it ended before it had read all; the queue's end says so too
+        with suppress(OSError):  # it ended before it had read all, and so ends the queue of answers
             send(self._requests, job)
         answer = self._awaited(deadline)
         if answer is None:
-            raise MesherCrash(self._last_words())
+            raise MesherCrash(self._exit_description())
         return answer
 
     def _awaited(self, deadline: float) -> Message | None:
         while (rest := deadline - time.monotonic()) > 0:
             try:
-                return self._answers.get(timeout=min(rest, BETWEEN_LOOKS))
+                return self._answers.get(timeout=min(rest, POLL_SECONDS))
             except Empty:
                 continue
         raise MesherTimeout
 
-    def _last_words(self) -> str:
-        """How the process ended."""
+    def _exit_description(self) -> str:
+        """How the process ended, as text."""
         try:
-            status = self._process.wait(GOODBYE)
+            status = self._process.wait(EXIT_SECONDS)
         except subprocess.TimeoutExpired:
             return "it closed its output"
         if status < 0:
             return signal.Signals(-status).name
-        said = (self._folder / "stderr.txt").read_text("utf-8", "replace").strip().splitlines()
-        return f"exit status {status:#x}" + (f": {said[-1][:200]}" if said else "")
+        errors = (self._folder / "stderr.txt").read_text("utf-8", "replace").strip().splitlines()
+        return f"exit status {status:#x}" + (f": {errors[-1][:200]}" if errors else "")
 
 
 def _launched(folder: Path) -> subprocess.Popen[bytes]:
-    """Out of the terminal's reach, and with modules from where ours come from."""
+    """A process in a session of its own, with the module search path of this one."""
     places = os.pathsep.join(os.path.abspath(place) for place in sys.path)
-    with (folder / "stderr.txt").open("wb") as said:
+    with (folder / "stderr.txt").open("wb") as errors:
         return subprocess.Popen(
             # -P: nothing from the current folder, which may hold a file of any name
             [sys.executable, "-P", "-m", "solver.meshing.worker", str(folder)],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
-            stderr=said,
+            stderr=errors,
             bufsize=0,
             env={**os.environ, "PYTHONPATH": places, "OPENBLAS_NUM_THREADS": "1"},
             start_new_session=True,
@@ -164,8 +166,8 @@ def _launched(folder: Path) -> subprocess.Popen[bytes]:
         )
 
 
-def _listen(stream: IO[bytes], answers: SimpleQueue[Message | None]) -> None:
-    """Queue the process's answers, and None when there will be no more."""
+def _queue_answers(stream: IO[bytes], answers: SimpleQueue[Message | None]) -> None:
+    """Queue the process's answers, and None after the last."""
     while (answer := receive(cast(FileIO, stream))) is not None:
         answers.put(answer)
     answers.put(None)
@@ -174,16 +176,16 @@ def _listen(stream: IO[bytes], answers: SimpleQueue[Message | None]) -> None:
 def _end(
     owner: int, process: subprocess.Popen[bytes], folder: Path, listener: threading.Thread
 ) -> None:
-    """End the process and clear up behind it; not in a forked copy of its owner."""
+    """End the process and remove its folder; not in a forked copy of its owner."""
     if os.getpid() != owner:
         return
     assert process.stdin is not None and process.stdout is not None
-    process.stdin.close()  # it leaves by itself, even in the midst of a mesh
+    process.stdin.close()  # on which it exits by itself, also while it makes a mesh
     try:
-        process.wait(GOODBYE)
+        process.wait(EXIT_SECONDS)
     except subprocess.TimeoutExpired:
         process.kill()
         process.wait()
-    listener.join(GOODBYE)
+    listener.join(EXIT_SECONDS)
     process.stdout.close()
     shutil.rmtree(folder, ignore_errors=True)

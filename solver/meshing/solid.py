@@ -18,11 +18,10 @@ from solver.mesh.mid_nodes import SMALLEST_RATIO, jacobian_ratios, relaxed
 from solver.meshing.messages import Message
 from solver.meshing.process import DEFAULT_SECONDS, MesherCrash, MesherTimeout, ask
 
-FACES_OF_A_TETRAHEDRON = ((1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1))  # each seen from outside
-
+FACES_OF_A_TETRAHEDRON = ((1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1))  # outward normals
 
 SIZE_OF_EDGE = 0.83
-"""Size to ask of Gmsh for a mean edge of 1: its tetrahedra come out that much larger."""
+"""Size to prescribe to Gmsh for a mean edge of 1: its tetrahedra are larger."""
 
 
 @dataclass(frozen=True)
@@ -112,7 +111,7 @@ def mesh_solid(
 def _from_gmsh(
     brep: bytes, faces: int, options: MeshOptions, seconds: float
 ) -> Mapping[str, NDArray[Any]]:
-    """What ``meshing_gmsh.meshed`` returns, from the other process."""
+    """The result of ``gmsh_calls.meshed`` in the other process."""
     job = Message(
         {"faces": faces, "settings": _settings(options)},
         {"brep": np.frombuffer(brep, np.uint8), "field": _field_table(options.field)},
@@ -130,7 +129,7 @@ def _from_gmsh(
 
 
 def _accepted(answer: Message, faces: int) -> Mapping[str, NDArray[Any]]:
-    """The arrays of an answer that is a mesh."""
+    """The arrays of an answer; raises the error that it reports."""
     if "failed" in answer.values:
         raise OSError(answer.values["failed"])
     if "faces" in answer.values:
@@ -150,7 +149,7 @@ def _settings(options: MeshOptions) -> dict[str, float]:
 
 
 def _field_table(field: SizeField | None) -> Reals:
-    """Corners and wanted sizes of the field's tetrahedra (t, 16); see ``meshing_gmsh.meshed``."""
+    """Corners and wanted sizes of the field's tetrahedra (t, 16); see ``gmsh_calls.meshed``."""
     if field is None:
         return np.empty((0, 16))
     corners = field.mesh.tets[:, :4]
@@ -171,7 +170,7 @@ def _named_surfaces(
 
 
 def _faces_of(tets: NDArray[np.int32]) -> NDArray[np.int32]:
-    """Every tetrahedron's four faces as six-node triangles seen from outside it, (4e, 6)."""
+    """Every tetrahedron's four faces as six-node triangles with outward normals, (4e, 6)."""
     middle = {frozenset(edge): 4 + place for place, edge in enumerate(TETRAHEDRON_EDGES)}
     columns = [
         [*face, *(middle[frozenset((face[k], face[(k + 1) % 3]))] for k in range(3))]
@@ -181,7 +180,7 @@ def _faces_of(tets: NDArray[np.int32]) -> NDArray[np.int32]:
 
 
 def _check_quality(nodes: NDArray[np.float64], tets: NDArray[np.int32]) -> None:
-    """Refuse folded elements and name the place of the worst."""
+    """Raise ``MeshingError`` for folded elements, with the position of the worst."""
     ratios = jacobian_ratios(nodes, tets)
     worst = int(ratios.argmin())
     if ratios[worst] < SMALLEST_RATIO:

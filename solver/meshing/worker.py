@@ -1,11 +1,11 @@
-"""The mesher's process: reads jobs from stdin, runs Gmsh, writes meshes to stdout.
+"""The meshing process: reads jobs from stdin, runs Gmsh, writes meshes to stdout.
 
     python -m solver.meshing.worker FOLDER
 
-Gmsh is C++ that cannot be stopped from within, and that may crash; here it can be ended, and takes
-nobody with it. A thread watches stdin: when the program at its other end is gone, however it
-ended, FOLDER goes (for what Gmsh reads and writes) and this process too, even in the midst of a
-mesh.
+Gmsh, in C++, cannot be stopped by a call and may crash; in a process of its own it can be ended,
+and a crash does not end the program. FOLDER is for the files that Gmsh reads and writes. A thread
+reads stdin: at its end, when the program has ended in any way, it removes FOLDER and ends this
+process, also while Gmsh makes a mesh.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ def main() -> None:
     folder = Path(sys.argv[1])
     os.environ["HOME"] = os.environ["APPDATA"] = str(folder)  # Gmsh's FLTK leaves settings there
     answers = FileIO(os.dup(STDOUT), "wb")
-    os.dup2(STDERR, STDOUT)  # what C code prints is no answer
+    os.dup2(STDERR, STDOUT)  # keeps what C code prints out of the answers
     jobs: SimpleQueue[Any] = SimpleQueue()
     threading.Thread(target=_watch, args=(folder, jobs), daemon=True).start()
     from solver.meshing.messages import send
@@ -39,7 +39,7 @@ def main() -> None:
 
 
 def _watch(folder: Path, jobs: SimpleQueue[Any]) -> None:
-    """Queue the messages from stdin; end this process with it."""
+    """Queue the messages from stdin; at its end, end this process."""
     from solver.meshing.messages import receive
 
     stream = FileIO(STDIN, "rb", closefd=False)
@@ -50,7 +50,7 @@ def _watch(folder: Path, jobs: SimpleQueue[Any]) -> None:
 
 
 def _remove(folder: Path) -> None:
-    """Remove a folder in which Gmsh, in the other thread, may still be writing."""
+    """Remove a folder to which Gmsh, in the other thread, may still write."""
     for _ in range(40):
         shutil.rmtree(folder, ignore_errors=True)
         if not folder.exists():
@@ -59,7 +59,7 @@ def _remove(folder: Path) -> None:
 
 
 def _load_gmsh() -> dict[str, str] | None:
-    """Import Gmsh while there is nothing to do yet; why it could not be, if so."""
+    """Import Gmsh before the first job; the error as an answer if that fails."""
     try:
         import gmsh  # noqa: F401
     except (ImportError, OSError) as error:

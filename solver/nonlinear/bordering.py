@@ -1,4 +1,4 @@
-"""Newton's method with the load among the unknowns and one more equation that picks a point."""
+"""Newton's method with the load as an unknown and one additional equation."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ class EquilibriumPoint:
     """An equilibrium on a path, stable or not.
 
     ``direction`` (m,): its derivative with respect to the load. ``force`` (m,): that of the
-    residual with respect to the applied pressure, mm^2. ``unstable_modes``: in so many ways it
-    gives way while the load is held, None where the linear solver cannot tell. ``failure``: why
-    this is no equilibrium.
+    residual with respect to the applied pressure, mm^2. ``unstable_modes``: their number at
+    constant load, None where the linear solver cannot tell. ``failure``: why this is no
+    equilibrium.
     """
 
     state: State
@@ -40,7 +40,7 @@ class EquilibriumPoint:
 
     @property
     def stable(self) -> bool | None:
-        """Whether the body stays there while the load is held."""
+        """Whether it is stable at constant load; None if unknown."""
         return None if self.unstable_modes is None else self.unstable_modes == 0
 
 
@@ -79,7 +79,7 @@ def corrected(newton: Newton, guess: State, load: float, row: Row) -> Equilibriu
 def equilibrium_point(
     newton: Newton, state: State, load: float, iterations: int = 0
 ) -> EquilibriumPoint:
-    """What the tangent at an equilibrium says: where the path goes on, and whether it is stable."""
+    """An equilibrium with the direction of the path and its stability, from the tangent there."""
     equilibrium, failure = _linearised(newton, state, load)
     if failure:
         return EquilibriumPoint(state, load, iterations, failure=failure)

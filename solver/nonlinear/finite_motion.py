@@ -1,11 +1,11 @@
-"""Finite motions of slender bodies: rotate what a linear increment would stretch.
+"""Finite motions of slender bodies: increments applied as finite rotations.
 
-A Newton increment is linear in the nodes: applied as it stands to a body that should turn by a
-finite angle, it stretches it. Along a known axis the increment can be read as a motion: at
-stations along the axis, fit a translation and an in-plane rotation to the increment of the nodes
-around; lay the segments between stations end to end from the root with finite rotations; give
-each node the finite motion of its stations, and what remains of its increment, rotated. To first
-order this is the increment itself.
+A Newton increment is linear in the nodes: added to a body that rotates by a finite angle, it
+stretches the body. Along a known axis the increment defines a motion: at stations along the axis,
+fit a translation and an in-plane rotation to the increment of the nodes around; place the segments
+between stations end to end from the root with finite rotations; give each node the finite motion of
+its stations, and the rotated remainder of its increment. To first order this is the increment
+itself.
 
 All rotations are about y, positive from z to x: a positive one turns +x towards -z.
 """
@@ -34,8 +34,8 @@ def motion_along(mesh: Mesh, axis: SlenderAxis | None) -> Motion:
 class SlenderMotion:
     """Increments of a body with stations along x, applied as finite in-plane motions.
 
-    ``nodes`` (n, 3); ``weights`` (n, s): how much of each station's motion a node takes,
-    linear between neighbouring stations.
+    ``nodes`` (n, 3); ``weights`` (n, s): share of each station's motion in a node's, linear
+    between neighbouring stations.
     """
 
     nodes: Reals
@@ -50,14 +50,14 @@ class SlenderMotion:
         return SlenderMotion(mesh.nodes, weights)
 
     def __call__(self, displacement: Reals, increment: Reals) -> Reals:
-        """Displacement (n, 3) after the finite motion that starts off as ``increment`` (n, 3)."""
+        """Displacement (n, 3) after a finite motion that is ``increment`` (n, 3) to first order."""
         plane = (self.nodes + displacement)[:, [0, 2]]
         step = increment[:, [0, 2]]
         centres, shifts, angles = self._fit(plane, step)
         w, angle = self.weights, self.weights @ angles
         linear = w @ (shifts - angles[:, None] * _quarter_turn(centres))
         linear += angle[:, None] * _quarter_turn(plane)
-        finite = w @ (_lay_out(centres, shifts, angles) - _turn(centres, angles))
+        finite = w @ (_placed_centres(centres, shifts, angles) - _turn(centres, angles))
         finite += (w @ np.cos(angles))[:, None] * plane
         finite += (w @ np.sin(angles))[:, None] * _quarter_turn(plane)
         result = displacement + increment
@@ -67,7 +67,7 @@ class SlenderMotion:
     def _fit(self, plane: Reals, step: Reals) -> tuple[Reals, Reals, Reals]:
         """Centres (s, 2), their shifts (s, 2) and rotations (s,) of the least-squares motion.
 
-        The first station is where the body is held: it stays.
+        The first station, where the body is held, does not move.
         """
         w = self.weights
         total = w.sum(axis=0)[:, None]
@@ -82,8 +82,8 @@ class SlenderMotion:
         return centres, shifts, angles
 
 
-def _lay_out(centres: Reals, shifts: Reals, angles: Reals) -> Reals:
-    """New station centres (s, 2): segments stretched linearly, then turned and laid end to end."""
+def _placed_centres(centres: Reals, shifts: Reals, angles: Reals) -> Reals:
+    """New station centres (s, 2): segments stretched linearly, rotated and placed end to end."""
     segments = np.diff(centres, axis=0)
     mean = (angles[1:] + angles[:-1]) / 2
     stretches = np.diff(shifts, axis=0) - mean[:, None] * _quarter_turn(segments)
@@ -97,7 +97,7 @@ def _quarter_turn(vectors: Reals) -> Reals:
 
 
 def _turn(vectors: Reals, angles: Reals) -> Reals:
-    """Vectors (k, 2) in (x, z) turned by angles (k,) about y."""
+    """Vectors (k, 2) in (x, z) rotated by angles (k,) about y."""
     return np.cos(angles)[:, None] * vectors + np.sin(angles)[:, None] * _quarter_turn(vectors)
 
 

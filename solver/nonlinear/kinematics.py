@@ -1,4 +1,4 @@
-"""How states of a problem move: increments as finite motions, supports in place."""
+"""Kinematics of states: increments as finite motions, given displacements."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ class Kinematics:
         return kept if self.plane is None else self.plane.finite(state, step, kept)
 
     def start(self, displacement: Reals, pressure: Reals) -> State:
-        """A given state as a start at the whole load.
+        """A given state as the initial one at the whole load.
 
         Raises ``SolverError`` if its shapes do not fit the mesh or a number is not finite.
         """
@@ -64,11 +64,11 @@ class Kinematics:
         return state if self.plane is None else self.plane.fitted(state)
 
     def with_motions(self, state: State, load: float) -> State:
-        """A state with prescribed motions where they are at a fraction of the load."""
+        """A state with the prescribed motions of a fraction of the load."""
         return self.with_supports(state, load) if self.problem.supports.prescribed else state
 
     def with_supports(self, state: State, load: float) -> State:
-        """A state with what is held or led put where it is at a fraction of the load."""
+        """A state with the given displacements of a fraction of the load."""
         given = self.given(load)
         displacement = np.where(np.isnan(given), state.displacement, given)
         return State(displacement, state.hydrostatic_pressure, state.plane)
@@ -76,7 +76,7 @@ class Kinematics:
     def given(self, load: float) -> Reals:
         """Given displacements (n, 3) at a fraction of the load, NaN where free, mm.
 
-        Raises ``SolverError`` if a prescribed motion lets go of something on its way.
+        Raises ``SolverError`` if a prescribed motion frees other components than at the whole load.
         """
         problem = self.problem
         given = given_displacements(problem.mesh, problem.supports, load, problem.moving_plane)

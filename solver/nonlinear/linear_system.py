@@ -1,4 +1,4 @@
-"""The tangent of a problem: factorized, solved with, and asked whether the body is stable."""
+"""Factorization of a problem's tangent: solutions, and stability by its inertia."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from solver.linear.solvers import linear_solver
 
 
 class LinearSystem:
-    """The factorization at hand of the tangent of an ``assembly``, by the solver ``name``."""
+    """The last factorization of the tangent of an ``assembly``, by the solver ``name``."""
 
     def __init__(self, assembly: Assembly, name: str) -> None:
         self._numbering = assembly.numbering
@@ -37,7 +37,7 @@ class LinearSystem:
         self._solver.factorize(equilibrium.tangent)
 
     def solve(self, right_hand_side: Reals) -> Reals:
-        """Solve for the unknowns (m,) with the factorization at hand."""
+        """Solve for the unknowns (m,) with the last factorization."""
         return self._solver.solve(right_hand_side)
 
     def increment(self, right_hand_side: Reals) -> State:
@@ -53,7 +53,7 @@ class LinearSystem:
         """Number of modes in which the body of the last tangent is unstable; None if unknown.
 
         Negative eigenvalues beyond one for each pressure. Where only their parity is known, a
-        wrong one counts as one, and a right one as unknown.
+        wrong one counts as one mode, and a right one as unknown.
         """
         negative = self._solver.negative_pivots
         if negative is not None:

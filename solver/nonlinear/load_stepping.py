@@ -22,20 +22,20 @@ from solver.results.solution import PathPoint, Solution
 
 Points: TypeAlias = tuple[PathPoint, ...]
 
-NEAR = 0.05
-"""A limit further ahead, in fractions of the load reached, is not what stopped a path."""
+LIMIT_DISTANCE = 0.05
+"""Largest distance of a limit point that explains a stop, as a fraction of the load reached."""
 
-STEPS_TO_A_LIMIT = 12
-"""Steps by arc length that may be spent on finding out what stopped a path."""
+LIMIT_STEPS = 12
+"""Most steps by arc length in search of that limit point."""
 
-SHORT = 0.03
-"""A step cut below this fraction of the load asks for the full tolerance."""
+SHORT_STEP = 0.03
+"""Fraction of the load; a shorter step is solved to the full tolerance."""
 
-LEAP = 4.0
-"""A state so many times further away than predicted lies on another branch."""
+JUMP_RATIO = 4.0
+"""Ratio of actual to predicted displacement beyond which a state lies on another branch."""
 
-NOTICEABLE = 0.02
-"""Fraction of the body's diagonal; no shorter distance is a leap."""
+SHORTEST_JUMP = 0.02
+"""Displacement, in body diagonals, to which the ratio may be exceeded on the same branch."""
 
 
 def solve(
@@ -49,9 +49,9 @@ def solve(
 ) -> Solution:
     """Equilibrium of ``problem`` under ``pressure``, reached from zero load.
 
-    Dead loads and prescribed motions of the problem grow along with the pressure. A load that
-    cannot be reached gives the last good state with ``converged`` False and a ``message``, never a
-    diverged state; if a limit point is why, ``limit`` says at what pressure.
+    Dead loads and prescribed motions of the problem grow in proportion with the pressure. A load
+    that cannot be reached gives the last equilibrium found, with ``converged`` False and a
+    ``message``, never a diverged state; ``limit`` is the pressure of a limit point that caused it.
 
     Args:
         problem: body, supports and loads.
@@ -63,17 +63,17 @@ def solve(
 
             *Shape:* (n, 3) in mm, (v,) in MPa.
         stops: pressures in MPa (fractions of the load where there is no pressure) before
-            ``pressure`` at which the path has a point: passed on the way up, or visited on the way
-            back down after a start at the whole load.
+            ``pressure`` at which the path has a point: reached with increasing load, or with
+            decreasing load after a start at the whole load.
         resume: a checkpoint that a listener was given on an earlier run of the same problem,
-            pressure, options and stops. The path goes on from there, to the same bits (unless the
-            first run found the checkpoint's state too poor to go on from).
+            pressure, options and stops. The path continues from there, with the same bits (unless
+            the first run corrected the checkpoint's state once more, to the full tolerance).
 
     Returns:
-        The last good equilibrium, with the path to it.
+        The last equilibrium found, with the path to it.
 
     Raises:
-        SolverError: input that is no problem, or numbers that are not finite.
+        SolverError: invalid input, or numbers that are not finite.
     """
     if not np.isfinite(pressure):
         raise SolverError(f"pressure must be a finite number of MPa, got {pressure}.")
@@ -82,19 +82,19 @@ def solve(
     newton = Newton(problem, float(pressure), options or SolverOptions(), listener)
     path = None
     if resume is not None:
-        path = _climbed(newton, loads, *_resumed(newton, resume))
+        path = _loaded(newton, loads, *_resumed(newton, resume))
     elif initial is not None:
-        path = _from_the_top(newton, newton.kinematics.start(*initial), loads)
+        path = _from_whole_load(newton, newton.kinematics.start(*initial), loads)
     if path is None:
-        path = _climbed(newton, loads, *_from_zero(newton))
+        path = _loaded(newton, loads, *_from_zero(newton))
     return solution_of(newton, path, time.perf_counter() - start)
 
 
 @dataclass(frozen=True)
 class Path:
-    """How far the load came: the last good ``state``, the ``points`` up to it, why it stopped.
+    """A load path: its last ``state``, the ``points`` up to it, and why it stopped before the end.
 
-    ``limit``: the load of the limit point that was in the way.
+    ``limit``: load of the limit point that stopped it.
     """
 
     state: State
@@ -105,22 +105,22 @@ class Path:
 
 @dataclass(frozen=True)
 class LoadStepper:
-    """Steps of the load for ``follow``; ``end``: where they lead, ``before``: the path so far."""
+    """Steps of the load for ``follow``; ``end``: the final load, ``before``: the path so far."""
 
     newton: Newton
     end: float
     before: Points = ()
 
     def attempt(self, segment: Segment[Attempt], target: float) -> Attempt:
-        """One step from a state to a load, counted, and reported if it is refused."""
+        """One step to a load, counted, and reported if it is rejected."""
         newton, reached, load = self.newton, segment.reached, segment.position
         if reached.direction is None:
             reached = newton.departing(reached.state, load)
-        exact = target == self.end or abs(target - load) < SHORT
+        exact = target == self.end or abs(target - load) < SHORT_STEP
         tolerance = newton.options.tolerance if exact else newton.loose_tolerance
         guess = newton.predicted(reached, load, target)
         attempt = newton.correct(guess, target, tolerance, onward=target != 1.0)
-        failure = attempt.failure or _leapt(newton, reached.state, guess, attempt.state)
+        failure = attempt.failure or _jumped(newton, reached.state, guess, attempt.state)
         if failure:
             newton.effort.refused_steps += 1
             newton.notify("refused", target, reached.state, attempt.iterations, np.inf)
@@ -129,7 +129,7 @@ class LoadStepper:
         return attempt
 
     def accepted(self, segment: Segment[Attempt]) -> Segment[Attempt]:
-        """With a point, and a checkpoint for the listener."""
+        """The segment with a point; the listener gets a checkpoint."""
         newton, reached, load = self.newton, segment.reached, segment.position
         point = newton.point(reached.state, load, reached.iterations, newton.system.stable)
         segment = replace(segment, points=(*segment.points, point))
@@ -137,8 +137,8 @@ class LoadStepper:
         return segment
 
     def refused(self, segment: Segment[Attempt], refusals: int) -> Segment[Attempt]:
-        """After two refusals the state was not good enough, or the direction from it."""
-        return _settled(self.newton, segment) if refusals == 2 else segment
+        """After two rejections the start may be too inaccurate: it is corrected once more."""
+        return _recorrected(self.newton, segment) if refusals == 2 else segment
 
 
 def _stops(pressures: Sequence[float], pressure: float) -> tuple[float, ...]:
@@ -150,8 +150,8 @@ def _stops(pressures: Sequence[float], pressure: float) -> tuple[float, ...]:
     return tuple(load for load in loads if load < 1 - 1e-12)
 
 
-def _from_the_top(newton: Newton, initial: State, stops: tuple[float, ...]) -> Path | None:
-    """Newton at the whole load, then back through ``stops``; None if that fails."""
+def _from_whole_load(newton: Newton, initial: State, stops: tuple[float, ...]) -> Path | None:
+    """Newton's method at the whole load, then down through ``stops``; None if that fails."""
     attempt = newton.correct(initial, 1.0, newton.options.tolerance)
     if attempt.failure:
         newton.effort.refused_steps += 1
@@ -176,7 +176,7 @@ def _from_zero(newton: Newton) -> tuple[Segment[Attempt], Points]:
 
 
 def _first_step(newton: Newton, start: Attempt) -> float:
-    """The first step asked for, or one that suits the body's motion, as a fraction of the load."""
+    """The first step by the options, or by the body's motion, as a fraction of the load."""
     if newton.options.first_step is not None or not newton.slender:
         return newton.options.first_step or FIRST_STEP
     assert start.direction is not None
@@ -193,10 +193,10 @@ def _resumed(newton: Newton, checkpoint: Checkpoint) -> tuple[Segment[Attempt], 
     return Segment(attempt, checkpoint.load, checkpoint.step), checkpoint.points
 
 
-def _climbed(
+def _loaded(
     newton: Newton, stops: tuple[float, ...], segment: Segment[Attempt], points: Points
 ) -> Path:
-    """Up from a segment's end through ``stops``; ``points``: the path so far."""
+    """Load increased from a segment's end through ``stops``; ``points``: the path so far."""
     for stop in (*(stop for stop in stops if stop > segment.position), 1.0):
         segment = _followed(newton, replace(segment, points=()), stop, points)
         points += segment.points
@@ -215,25 +215,25 @@ def _followed(
 
 
 def _stopped(newton: Newton, segment: Segment[Attempt], points: Points) -> Path:
-    """A path that came no further, and the limit point that was in the way if there is one.
+    """A path that stops before the end, with the limit point that causes it if there is one.
 
-    Its last state may have been good enough for going on only: it is corrected once more.
+    Its last state may fulfil the loose tolerance only: it is corrected once more.
     """
     from solver.nonlinear.arc_length import limit_ahead
 
     load = segment.position
     last = newton.correct(segment.reached.state, load, newton.options.tolerance)
-    if last.failure:  # no state on the way bears the full tolerance
+    if last.failure:  # the loose tolerance was met, the full one is not
         return Path(State.zero(newton.problem), points[:1], segment.failure)
     state, points = last.state, _corrected(newton, last, load, points)
-    limit = limit_ahead(newton, state, load, STEPS_TO_A_LIMIT)
-    if limit is None or not -1e-6 <= limit.point.load - load <= NEAR * load:
+    limit = limit_ahead(newton, state, load, LIMIT_STEPS)
+    if limit is None or not -1e-6 <= limit.point.load - load <= LIMIT_DISTANCE * load:
         return Path(state, points, segment.failure)
     return Path(state, points, limit.describe(newton.pressure), limit.point.load)
 
 
-def _settled(newton: Newton, segment: Segment[Attempt]) -> Segment[Attempt]:
-    """Its end corrected to the full tolerance, if it bears that."""
+def _recorrected(newton: Newton, segment: Segment[Attempt]) -> Segment[Attempt]:
+    """The segment with its end corrected to the full tolerance, if that succeeds."""
     state, load = segment.reached.state, segment.position
     better = newton.correct(state, load, newton.options.tolerance, onward=True)
     if better.failure:
@@ -243,25 +243,25 @@ def _settled(newton: Newton, segment: Segment[Attempt]) -> Segment[Attempt]:
 
 
 def _corrected(newton: Newton, better: Attempt, load: float, points: Points) -> Points:
-    """Points of which the last one is that of a better state at the same load."""
+    """Points with the last one replaced by that of a corrected state at the same load."""
     if not points:
         return points
     spent = points[-1].iterations + better.iterations
     return (*points[:-1], newton.point(better.state, load, spent, newton.system.stable))
 
 
-def _leapt(newton: Newton, before: State, predicted: State, found: State) -> str:
-    """Why a state is none that the body comes to by a small step: it has snapped through."""
+def _jumped(newton: Newton, before: State, predicted: State, found: State) -> str:
+    """Why a state is not the continuation of the path, as after a snap-through; else empty."""
     expected = np.abs(predicted.displacement - before.displacement).max()
     moved = np.abs(found.displacement - before.displacement).max()
     size = newton.problem.mesh.size
-    if moved > LEAP * expected + NOTICEABLE * size:
+    if moved > JUMP_RATIO * expected + SHORTEST_JUMP * size:
         return "the next stable state is far away"
     return ""
 
 
 def _report(newton: Newton, segment: Segment[Attempt], points: Points) -> None:
-    """An event for a step, with a checkpoint to go on from."""
+    """Notify the listener of a step, with a checkpoint to resume from."""
     if newton.listener is None:
         return
     reached, load = segment.reached, segment.position
@@ -298,7 +298,7 @@ def solution_of(newton: Newton, path: Path, seconds: float) -> Solution:
 
 
 def _share(pressure: float, load: float) -> str:
-    """How much of what was asked for."""
+    """The load reached, relative to the whole one, as text."""
     if pressure:
         return f"{load * pressure:.4g} of {pressure:.4g} MPa"
     return f"{100 * load:.4g} % of the load"

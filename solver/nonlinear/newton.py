@@ -1,14 +1,14 @@
 """Newton's method at one load.
 
-Far from equilibrium a slender body's own tangent misleads: an increment stretches walls to second
-order, the stress of that, which the next correction removes, acts on the body's softest mode like
-an axial force on a column, and turns it stiff, loose or unstable. So the geometric part of the
-tangent is formed with the stress after the increment to first order, which is in equilibrium with
-the loads to first order too: the mixed integration point method (Magisano, Leonetti and Garcea,
-CMAME 313, 2017, doi 10.1016/j.cma.2016.10.023). The residual is never changed, so the answer is
-not, and near equilibrium both tangents are the same. Half of the paper's Prototype 1 takes 10 to 17
-factorizations with it, whatever the load steps, and 11 to 29 without. Cells with a moving plane,
-short and thick, gain nothing by it and go without.
+Far from equilibrium the tangent of a slender body is a poor predictor: an increment stretches walls
+to second order, and the stress of that, which the next correction removes, acts on the body's
+softest mode like an axial force on a column, which makes that mode too stiff, too soft or unstable.
+So the geometric part of the tangent is formed with the stress after the increment to first order,
+which is in equilibrium with the loads to first order too: the mixed integration point method
+(Magisano, Leonetti and Garcea, CMAME 313, 2017, doi 10.1016/j.cma.2016.10.023). The residual is
+unchanged, and so is the solution, and near equilibrium both tangents are the same. Half of the
+paper's Prototype 1 takes 10 to 17 factorizations with it, whatever the load steps, and 11 to 29
+without. It does not help cells with a moving plane, short and thick, and is not used there.
 """
 
 from __future__ import annotations
@@ -37,13 +37,13 @@ DIFFERENCE = 1e-6
 """Fraction of the load between the two residuals of a difference quotient."""
 
 EDGE_SHARE = 0.05
-"""Share of a mean edge by which a state below the whole load may be off."""
+"""Upper bound of the loose tolerance, as a fraction of a mean edge."""
 
 IMBALANCE = 1e-3
-"""More than that is left where a factorization used again was blind to a soft mode of the body."""
+"""Largest relative residual after a reused factorization; more is the error of a soft mode."""
 
 DIVERGED = 1.0
-"""A correction of so many body diagonals corrects nothing."""
+"""Corrections of so many body diagonals count as divergence."""
 
 
 class NoCorrection(Exception):
@@ -69,8 +69,8 @@ class Attempt:
     """Newton's outcome at one load: a state in equilibrium, or why there is none.
 
     ``imbalance``: the residual left there, relative to that of the load alone. ``direction``: the
-    equilibrium's derivative with respect to the load, if asked for. ``touched``: whether walls
-    touched on the way.
+    equilibrium's derivative with respect to the load, if asked for. ``touched``: whether there was
+    contact in any iteration.
     """
 
     state: State
@@ -85,7 +85,7 @@ class Attempt:
 class Newton:
     """Newton's method on one problem at fractions (``load``) of its loads and one ``pressure``.
 
-    Holds what is computed once per mesh, the factorization at hand, and what was spent so far.
+    Holds what is computed once per mesh, the last factorization, and counts of the effort.
     """
 
     problem: Problem
@@ -108,9 +108,9 @@ class Newton:
         self.loose_tolerance = min(self.options.loose_tolerance, EDGE_SHARE * mesh.edge / mesh.size)
 
     def correct(self, guess: State, load: float, tolerance: float, onward: bool = False) -> Attempt:
-        """Equilibrium at a fixed load from ``guess``; where walls touch, at worst in two stages.
+        """Equilibrium at a fixed load from ``guess``; with contact, if need be in two stages.
 
-        ``onward``: with the direction in which the path goes on.
+        ``onward``: with the direction in which the path continues.
         """
         attempt = self.iterate(guess, load, tolerance, onward)
         if not attempt.failure or not attempt.touched:
@@ -122,10 +122,11 @@ class Newton:
     def iterate(self, guess: State, load: float, tolerance: float, onward: bool = False) -> Attempt:
         """Newton iterations at a fixed load from ``guess``, until a correction is small.
 
-        As soon as corrections shrink fast, the tangent is the state's own and its factorization
-        serves again; or, if the path goes ``onward`` from here, the iterations end with a small
-        correction by a state's own tangent. Where walls touch no correction larger than the
-        contact's depth will do, and which points touch may take as many iterations again to settle.
+        Once corrections decrease fast, the tangent is that of the state itself and its
+        factorization is reused; or, if the path continues ``onward``, the iterations end with a
+        small correction by such a tangent. With contact the last correction must not exceed the
+        contact's penetration, and twice as many iterations are allowed, for the set of points in
+        contact to converge.
         """
         state, previous = guess, 0.0
         reuse = own = touched = False
@@ -153,7 +154,7 @@ class Newton:
         return Attempt(guess, iteration, failure, touched=touched)
 
     def _correction(self, state: State, load: float, reuse: bool, iteration: int) -> Correction:
-        """One correction, with the factorization at hand if ``reuse``. Raises ``NoCorrection``."""
+        """One correction, with the last factorization if ``reuse``. Raises ``NoCorrection``."""
         equilibrium = self.evaluate(state, load, tangent=not reuse)
         if not equilibrium.admissible:
             raise NoCorrection("an element would turn inside out")
@@ -176,7 +177,7 @@ class Newton:
     ) -> Attempt:
         """The state after a small correction, if it is in stable equilibrium.
 
-        ``onward``: by the tangent nearby, which also gives the direction of the path.
+        ``onward``: judged by the last tangent, which also gives the direction of the path.
         """
         if not onward:
             return self.verified(found.moved, load, iterations, guess)
@@ -186,22 +187,22 @@ class Newton:
         return Attempt(found.moved, iterations, direction=direction)
 
     def verified(self, state: State, load: float, iterations: int, guess: State) -> Attempt:
-        """Accept a converged state only if it is stable and no element is turned inside out.
+        """Accept a converged state only if it is stable and no element is inverted.
 
         Stable means that the tangent has one negative pivot for each pressure unknown and no
-        more: the equilibrium is a minimum of energy among all incompressible neighbours.
+        more: the equilibrium is a minimum of energy under the constraint of incompressibility.
         """
         equilibrium = self.evaluate(state, load, tangent=self.system.stable is False)
         if not equilibrium.admissible:
             return Attempt(guess, iterations, "an element would turn inside out")
         if self.system.stable is False and not self._stable_at(equilibrium):
             return Attempt(guess, iterations, "the equilibrium would be unstable")
-        pushed = float(np.linalg.norm(load * self.rate(state, load, equilibrium))) or 1.0
-        imbalance = float(np.linalg.norm(equilibrium.residual)) / pushed
+        applied = float(np.linalg.norm(load * self.rate(state, load, equilibrium))) or 1.0
+        imbalance = float(np.linalg.norm(equilibrium.residual)) / applied
         return Attempt(state, iterations, imbalance=imbalance)
 
     def _stable_at(self, equilibrium: Equilibrium) -> bool:
-        """Whether a state is stable, where the last tangent, that of a state nearby, is not."""
+        """Whether a state is stable, if the last tangent, of a state nearby, is not."""
         try:
             self.factorize(equilibrium)
         except SingularMatrix:
@@ -218,19 +219,19 @@ class Newton:
         self.effort.factorizations += 1
 
     def departing(self, state: State, load: float) -> Attempt:
-        """A state in equilibrium with the direction in which the path goes on from it."""
+        """An equilibrium with the direction in which the path continues."""
         equilibrium = self.evaluate(state, load)
         self.factorize(equilibrium)
         return Attempt(state, 0, direction=self.direction(state, load, equilibrium))
 
     def direction(self, state: State, load: float, equilibrium: Equilibrium) -> State:
-        """Derivative of the equilibrium with respect to the load, by the tangent at hand."""
+        """Derivative of the equilibrium with respect to the load, by the last factorization."""
         return self.system.increment(-self.rate(state, load, equilibrium))
 
     def rate(self, state: State, load: float, equilibrium: Equilibrium) -> Reals:
-        """Derivative of the residual (m,) with respect to the load, the unknowns held: N.
+        """Derivative of the residual (m,) with respect to the load at constant unknowns, N.
 
-        What prescribed motions add comes by a difference quotient: only predictors use it.
+        The part of prescribed motions is a difference quotient: only predictors use it.
         """
         rate: Reals = self.pressure * equilibrium.force - self.assembly.dead_force
         if not self.problem.supports.prescribed:
@@ -241,22 +242,22 @@ class Newton:
         return rate + (moved.residual - equilibrium.residual) / step
 
     def predicted(self, reached: Attempt, load: float, target: float) -> State:
-        """The state at ``target`` to first order from one at ``load``, with supports in place."""
+        """The state at ``target`` to first order from one at ``load``, with its supports there."""
         assert reached.direction is not None
         step = reached.direction.scaled(target - load)
         moved = self.kinematics.advanced(reached.state, step)
-        if self.problem.supports.prescribed:  # moves nodes as no step of the unknowns does
+        if self.problem.supports.prescribed:  # displaces nodes without unknowns
             return self.kinematics.with_supports(moved, target)
         return self._with_stress(reached.state, step, moved)
 
     def _extrapolated(self, found: Correction) -> State:
-        """The corrected state with the stress that the correction leads to, to first order."""
+        """The corrected state with the stress after the correction, to first order."""
         return self._with_stress(found.state, found.increment, found.moved)
 
     def _with_stress(self, state: State, increment: State, moved: State) -> State:
-        """``moved`` with the stress that an ``increment`` from ``state`` leads to, to first order.
+        """``moved`` with the stress after an ``increment`` from ``state``, to first order.
 
-        Without it on a cell with a moving plane (see the module's text).
+        Not used on a cell with a moving plane (see the module's text).
         """
         if not self.slender:
             return moved
@@ -285,7 +286,7 @@ class Newton:
         correction: float,
         checkpoint: Checkpoint | None = None,
     ) -> None:
-        """Pass an event to the listener."""
+        """Call the listener with an event."""
         if self.listener is not None:
             rotation = self.kinematics.rotation(state)
             self.listener(Event(kind, load, rotation, iteration, correction, checkpoint))

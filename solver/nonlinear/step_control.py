@@ -1,7 +1,7 @@
-"""Steps along a path towards an end: longer after a success, cut after a failure.
+"""Steps along a path to a given end: longer after a success, cut after a failure.
 
-For paths whose position is prescribed, a load or a volume. The arc-length method, which has no end
-to aim at, chooses its lengths by how fast Newton's method converges.
+For paths whose position is prescribed, a load or a volume. The arc-length method, which has no
+given end, controls its lengths by the number of Newton iterations.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from solver.results.solution import PathPoint
 
 
 class Outcome(Protocol):
-    """Of a step: an equilibrium, or why there is none."""
+    """Result of a step: an equilibrium, or why there is none."""
 
     @property
     def failure(self) -> str: ...
@@ -27,8 +27,8 @@ Found = TypeVar("Found", bound=Outcome)
 class Segment(Generic[Found]):
     """A part of a path.
 
-    ``reached``: the equilibrium at its end, ``position``: the load or volume there, ``step``: how
-    far to try to go next, ``points``: those on it but its start, ``failure``: why it stopped.
+    ``reached``: the equilibrium at its end, ``position``: the load or volume there, ``step``:
+    length of the next step, ``points``: those on it without its start, ``failure``: why it stopped.
     """
 
     reached: Found
@@ -39,16 +39,16 @@ class Segment(Generic[Found]):
 
 
 class Stepper(Protocol[Found]):
-    """What takes the steps that ``follow`` asks for."""
+    """Steps for ``follow``."""
 
     def attempt(self, segment: Segment[Found], target: float) -> Found:
         """The equilibrium at ``target``, or why there is none."""
 
     def accepted(self, segment: Segment[Found]) -> Segment[Found]:
-        """The segment, one step longer, with a point for its end."""
+        """The segment after a successful step, with a point for its end."""
 
     def refused(self, segment: Segment[Found], refusals: int) -> Segment[Found]:
-        """The segment from whose end so many steps have failed, to try a shorter one from."""
+        """The segment to try a shorter step from, after so many failures at its end."""
 
 
 @dataclass(frozen=True)
@@ -66,7 +66,7 @@ class StepControl:
 def follow(
     stepper: Stepper[Found], segment: Segment[Found], end: float, control: StepControl
 ) -> Segment[Found]:
-    """Step from a segment's end to ``end``, up or down, as far as steps succeed."""
+    """Steps from a segment's end up or down to ``end``, as far as they succeed."""
     refusals = 0
     while segment.position != end:
         target = _next_position(segment.position, end, segment.step)

@@ -1,7 +1,7 @@
-"""Volume control: how much pressure a cavity of a given volume takes.
+"""Volume control: the pressure in a cavity of given volume.
 
-A syringe instead of a regulator: past a limit point, where no pressure holds the body any more, a
-volume still does.
+Beyond a limit point of the pressure a body may have no stable equilibrium at constant pressure, but
+still one at constant volume, as with a syringe instead of a pressure regulator.
 """
 
 from __future__ import annotations
@@ -36,8 +36,8 @@ def inflate(
 ) -> Solution:
     """Equilibrium of ``problem`` at a given volume inside its pressurised surfaces.
 
-    The pressure is an unknown. Points of the path need not be stable at constant pressure; each
-    says whether it is.
+    The pressure is an unknown. Points of the path need not be stable at constant pressure: see
+    their ``stable``.
 
     Args:
         problem: body and supports; its only load is the pressure.
@@ -52,7 +52,7 @@ def inflate(
 
     Raises:
         SolverError: other loads than pressure, volumes that are not positive, or not in order
-            between that at rest and ``volume``.
+            between the undeformed one and ``volume``.
     """
     start = time.perf_counter()
     if problem.loads or problem.supports.prescribed or not problem.pressurised:
@@ -70,7 +70,7 @@ def inflate(
 def _followed(
     newton: Newton, volume: float, stops: Sequence[float]
 ) -> tuple[Segment[EquilibriumPoint], tuple[PathPoint, ...]]:
-    """From the volume at rest through ``stops`` to ``volume``: the last segment, and the path."""
+    """From the undeformed volume through ``stops`` to ``volume``: last segment and path."""
     options, still = newton.options, State.zero(newton.problem)
     rest = _volume(newton, still)
     points: tuple[PathPoint, ...] = (newton.point(still, 0.0, 0, True),)
@@ -87,11 +87,11 @@ def _followed(
 
 
 def _stability(points: tuple[PathPoint, ...]) -> str:
-    """Up to where the body would have stayed under a pressure that is held."""
+    """Up to which pressure the points are stable at constant pressure, as text."""
     lost = next((number for number, point in enumerate(points) if point.stable is False), None)
     if lost is None:
         return "."
-    return f"; a held pressure would have lost it beyond {points[lost - 1].pressure:.4g} MPa."
+    return f"; at constant pressure it is unstable beyond {points[lost - 1].pressure:.4g} MPa."
 
 
 @dataclass(frozen=True)
@@ -110,7 +110,7 @@ class VolumeStepper:
         return found
 
     def accepted(self, segment: Segment[EquilibriumPoint]) -> Segment[EquilibriumPoint]:
-        """With a point."""
+        """The segment with a point for its end."""
         found = segment.reached
         point = self.newton.point(found.state, found.load, found.iterations, found.stable)
         return replace(segment, points=(*segment.points, point))
@@ -118,7 +118,7 @@ class VolumeStepper:
     def refused(
         self, segment: Segment[EquilibriumPoint], refusals: int
     ) -> Segment[EquilibriumPoint]:
-        """As it is."""
+        """The segment unchanged."""
         return segment
 
 
@@ -144,7 +144,7 @@ def _volume(newton: Newton, state: State) -> float:
 
 
 def _targets(rest: float, volume: float, stops: Sequence[float]) -> list[float]:
-    """Volumes to visit, in order from that at rest."""
+    """Volumes with points, in order from that of the undeformed body."""
     down = volume < rest
     targets = sorted({float(v) for v in (*stops, volume)}, reverse=down)
     finite = all(np.isfinite(targets)) and all(target > 0 for target in targets)

@@ -1,7 +1,7 @@
-"""``numba.njit`` with a cache on disk that notices a change of any file it was compiled from.
+"""``numba.njit`` with a cache on disk that depends on all files a function is compiled from.
 
-numba's own cache looks at the file of a function alone. Functions of other files are compiled into
-it, and a change of those would go unnoticed. So compiled functions that call each other across
+numba's own cache depends on the file of a function alone. Functions of other files are compiled
+into it, and changes of those would be missed. So compiled functions that call each other across
 files are cached in a folder whose name is a hash of all these files. A function that calls compiled
 functions of its own file only may use ``numba.njit`` itself.
 """

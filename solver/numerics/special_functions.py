@@ -1,4 +1,4 @@
-"""Quotients of elementary functions that need no switch where they would be 0/0."""
+"""Quotients of elementary functions, continued to where they would be 0/0."""
 
 from __future__ import annotations
 

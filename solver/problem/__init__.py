@@ -1,1 +1,1 @@
-"""What is to be solved: a mesh, its material, supports and loads."""
+"""The boundary value problem: mesh, material, supports and loads."""

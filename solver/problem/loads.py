@@ -78,7 +78,7 @@ Load: TypeAlias = Traction | BodyForce | PointForce | Couple
 
 
 def nodal_forces(mesh: Mesh, loads: Sequence[Load]) -> Reals:
-    """Forces (n, 3) in N that do the work of all ``loads`` but the couples.
+    """Consistent nodal forces (n, 3) in N of all ``loads`` but the couples.
 
     Raises ``SolverError`` for an unknown surface, a point force on no node, or a value that is not
     a finite vector.

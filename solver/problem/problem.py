@@ -1,4 +1,4 @@
-"""What is to be solved: a mesh, a material, supports and pressurised surfaces."""
+"""The boundary value problem: mesh, material, supports, loads and contacts."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Supports that contradict themselves or leave something free are refused."""
+"""Checks of supports: contradictions, free rigid motions, an undetermined pressure."""
 
 from __future__ import annotations
 
@@ -21,6 +21,9 @@ RIGID_MOTIONS = (
     "rotation about z",
 )
 
+NEGLIGIBLE = 1e-12
+"""Fraction of the largest value below which a value counts as zero."""
+
 
 def check_supports(mesh: Mesh, supports: Supports, moving_plane: str | None = None) -> None:
     """Raise ``SolverError`` where supports contradict themselves or leave a rigid motion free."""
@@ -32,13 +35,13 @@ def check_supports(mesh: Mesh, supports: Supports, moving_plane: str | None = No
     parts = connected_parts(mesh.tets, len(mesh.nodes))
     for number in range(parts.max() + 1):
         nodes = np.flatnonzero(parts == number)
-        loose = free_motions(mesh.nodes[nodes], fixed[nodes])
-        if loose:
+        free = free_motions(mesh.nodes[nodes], fixed[nodes])
+        if free:
             middle = ", ".join(f"{x:.4g}" for x in mesh.nodes[nodes].mean(axis=0))
             which = f"part of the body around ({middle}) mm" if parts.max() else "body"
             raise SolverError(
-                f"supports: they leave the {which} free to move in {len(loose)} "
-                f"way{'s' * (len(loose) > 1)} ({', '.join(loose)})."
+                f"supports: they leave the {which} free to move in {len(free)} "
+                f"way{'s' * (len(free) > 1)} ({', '.join(free)})."
             )
 
 
@@ -46,7 +49,7 @@ def check_pressure(mesh: Mesh, fixed: NDArray[np.bool_]) -> None:
     """Raise ``SolverError`` if no free displacement can change the volume of the body.
 
     The hydrostatic pressure of an incompressible body is then known but for a constant. The
-    derivative of the volume vanishes at inner nodes: one on the surface must be free.
+    derivative of the volume vanishes at inner nodes, so a displacement on the surface must be free.
     """
     rule = tetrahedron_rule()
     tangents = np.einsum("qad,eai->eqdi", rule.gradients, mesh.nodes[mesh.tets])
@@ -57,7 +60,7 @@ def check_pressure(mesh: Mesh, fixed: NDArray[np.bool_]) -> None:
     parts = np.einsum("q,qad,eqdi->eai", rule.weights, rule.gradients, cofactors)
     derivative = np.zeros(mesh.nodes.shape)
     np.add.at(derivative, mesh.tets, parts)
-    if (np.abs(derivative) * ~fixed).max() <= LOOSE * np.abs(derivative).max():
+    if (np.abs(derivative) * ~fixed).max() <= NEGLIGIBLE * np.abs(derivative).max():
         raise SolverError(
             "supports: they prescribe the whole surface of an incompressible body, which leaves "
             "its pressure undetermined; free some of it or give the material a bulk modulus."
@@ -65,10 +68,10 @@ def check_pressure(mesh: Mesh, fixed: NDArray[np.bool_]) -> None:
 
 
 def free_motions(nodes: Reals, fixed: NDArray[np.bool_]) -> tuple[str, ...]:
-    """Names of independent rigid motions of nodes (k, 3) that ``fixed`` (k, 3) does not hinder.
+    """Names of independent rigid motions of nodes (k, 3) that ``fixed`` (k, 3) does not prevent.
 
-    The rotations are those about axes through the middle of the body; a body that may turn about
-    one point elsewhere is free in as many ways.
+    Rotations are about axes through the centroid of the nodes; a body that is free to rotate about
+    another point has as many free motions.
     """
     node, axis = np.nonzero(fixed)
     positions = (nodes - nodes.mean(axis=0)) / np.linalg.norm(np.ptp(nodes, axis=0))
@@ -77,15 +80,12 @@ def free_motions(nodes: Reals, fixed: NDArray[np.bool_]) -> tuple[str, ...]:
     held = motions[:, node, axis]  # (6, number of held displacements)
     values, vectors = np.linalg.eigh(held @ held.T)
     return tuple(
-        RIGID_MOTIONS[k] for k in _leading(vectors[:, values <= LOOSE * max(values[-1], 1)])
+        RIGID_MOTIONS[k] for k in _leading(vectors[:, values <= NEGLIGIBLE * max(values[-1], 1)])
     )
 
 
-LOOSE = 1e-12
-
-
 def _leading(basis: Reals) -> list[int]:
-    """The k rows of a basis (m, k) that span the most: greedily, each after the ones before."""
+    """Rows that pivoting chooses from a basis (m, k): k of them, each the largest remaining one."""
     rest, chosen = basis.copy(), []
     for _ in range(basis.shape[1]):
         row = int(np.linalg.norm(rest, axis=1).argmax())

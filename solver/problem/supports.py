@@ -1,4 +1,4 @@
-"""Surfaces that are held or led, and the displacements that gives."""
+"""Displacement boundary conditions."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ class Supports:
 def fixed_displacements(
     mesh: Mesh, supports: Supports, moving_plane: str | None = None
 ) -> NDArray[np.bool_]:
-    """Which displacements are given, (n, 3); of the moving plane only the pin's z."""
+    """Which displacements are given, (n, 3); on the moving plane only the height of the pin."""
     return ~np.isnan(given_displacements(mesh, supports, 1.0, moving_plane))
 
 
@@ -80,7 +80,7 @@ def given_displacements(
 
 
 def prescribed_motion(mesh: Mesh, supports: Supports, surface: str, load: float) -> Reals:
-    """Displacements (k, 3) in mm of a led surface's nodes at a fraction of the load."""
+    """Prescribed displacements (k, 3) in mm of a surface's nodes at a fraction of the load."""
     positions = mesh.nodes[mesh.surface_nodes(surface)]
     motion = np.asarray(supports.prescribed[surface](positions, load), float)
     if motion.shape != positions.shape:
@@ -94,9 +94,9 @@ def prescribed_motion(mesh: Mesh, supports: Supports, surface: str, load: float)
 
 
 def pin(mesh: Mesh, moving_plane: str) -> int:
-    """The lowest node of a moving plane, (first of the lowest): the plane cannot slide past it.
+    """The node of a moving plane whose height in the plane is fixed: the first of the least z.
 
-    Nothing else would hold a cell along z; as no load acts along the plane, this takes no force.
+    Nothing else holds a cell along z. As no load acts along the plane, the reaction is zero.
     """
     nodes = mesh.surface_nodes(moving_plane)
     return int(nodes[mesh.nodes[nodes, 2].argmin()])

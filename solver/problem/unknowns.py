@@ -1,4 +1,4 @@
-"""Numbers of the unknowns: prescribed displacements leave the system by getting none."""
+"""Numbering of the unknowns; prescribed displacements get no number."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from solver.problem.supports import Supports, fixed_displacements
 class Numbering:
     """Numbers of the unknowns, -1 where prescribed.
 
-    ``displacement`` (n, 3) and ``pressure`` (v,), interleaved node by node so that what is near
-    in the mesh is near in the matrix; ``plane`` (2,): tilt and shift of the moving plane, last;
+    ``displacement`` (n, 3) and ``pressure`` (v,), interleaved node by node, so that neighbours in
+    the mesh are neighbours in the matrix; ``plane`` (2,): tilt and shift of the moving plane, last;
     ``size`` unknowns in all. Nodes on the moving plane have no x, and their z is the height in
     the plane.
     """
@@ -36,7 +36,7 @@ class Numbering:
         return np.ascontiguousarray(self.displacement[triangles].reshape(-1, 18))
 
     def gather(self, forces: Reals) -> Reals:
-        """Nodal forces (n, 3) as a vector over the unknowns; those on given displacements drop."""
+        """Nodal forces (n, 3) as a vector over the unknowns, without those on given ones."""
         vector = np.zeros(self.size)
         free = self.displacement >= 0
         vector[self.displacement[free]] = forces[free]

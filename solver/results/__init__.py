@@ -1,1 +1,1 @@
-"""What a solution says: stress, strain, reactions, files for ParaView."""
+"""Evaluation of a solution: stress, strain, reactions, files for ParaView."""

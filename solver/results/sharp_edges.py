@@ -1,9 +1,9 @@
-"""Where the stress of an ideal body has no value: sharp re-entrant edges and rims of clamps.
+"""Stress singularities of the ideal body: sharp re-entrant edges and rims of clamps.
 
-The elastic solution is singular there: the finer the mesh, the higher the stress, without end.
-A real part has no such edge: a printed one is round by about half a line's width. So stress nearer
-than ``Problem.sharp_edge_radius`` is not looked at. Edges under pressure are never left out: there
-a missing fillet is the designer's to see.
+The elastic solution is singular there: the stress grows without bound as the mesh is refined. A
+real part has no such edge: a printed one is rounded by about half a line's width. So stress nearer
+than ``Problem.sharp_edge_radius`` does not count. Edges under pressure always count: a high stress
+there shows that a fillet is missing.
 """
 
 from __future__ import annotations
@@ -16,10 +16,10 @@ from solver.mesh.mesh import Mesh
 from solver.problem.problem import Problem
 
 SMALLEST_TURN = 40.0
-"""Degrees between the normals of two faces that meet in a sharp edge."""
+"""Least angle between the normals of two faces that meet in a sharp edge, degrees."""
 
 SAMPLES = np.linspace(-1.0, 1.0, 9)
-"""Where the quadratic edges are sampled: dense enough for radii above an eighth of an edge."""
+"""Sampling points of quadratic edges: dense enough for radii above an eighth of an edge."""
 
 
 def trusted_nodes(problem: Problem) -> NDArray[np.bool_]:

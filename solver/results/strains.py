@@ -1,4 +1,4 @@
-"""How far the material of a body was strained: principal stretches at the quadrature points."""
+"""Strain of a body: principal stretches at the quadrature points."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from solver.results.solution import Solution
 def principal_logs(mesh: Mesh, displacement: Reals) -> Reals:
     """ln of the principal stretches at the quadrature points, ascending: (e, q, 3).
 
-    ``displacement`` (n, 3) in mm. From the eigenvalues of C - 1, so small strains keep their
-    digits.
+    ``displacement`` (n, 3) in mm. From the eigenvalues of C - 1, so small strains keep full
+    relative precision.
     """
     gradients = tetrahedron_rule().gradients
     jacobian = np.einsum("qai,eaj->eqij", gradients, mesh.nodes[mesh.tets])
@@ -30,8 +30,8 @@ def principal_logs(mesh: Mesh, displacement: Reals) -> Reals:
 def reached_logs(solution: Solution) -> Reals:
     """``principal_logs`` of a solution as rows (k, 3), without elements at sharp edges.
 
-    Those are left out by the rule of the highest stress (``trusted_nodes``): there the strain
-    of an ideal body has no bound. All count if none is left.
+    Those are left out as for the highest stress (``trusted_nodes``): there the strain of an ideal
+    body is unbounded. All count if none is left.
     """
     logs = principal_logs(solution.problem.mesh, solution.displacement)
     trusted = _trusted(solution.problem)
@@ -40,5 +40,5 @@ def reached_logs(solution: Solution) -> Reals:
 
 
 def _trusted(problem: Problem) -> np.ndarray:
-    """Which elements have no node next to a sharp edge, (e,)."""
+    """Which elements have no node near a sharp edge, (e,)."""
     return np.asarray(trusted_nodes(problem)[problem.mesh.tets].all(axis=1))

@@ -93,8 +93,8 @@ def peak_von_mises(solution: Solution) -> Peak:
 class ElementStress:
     """Deviatoric Cauchy stress at the ten nodes of each element, MPa.
 
-    ``raw`` (e, 10, 6) as the element has it, ``smoothed`` (e, 10, 6) as the nodes' averages have
-    it; ``volumes`` (e,) of the elements, mm^3.
+    ``raw`` (e, 10, 6) of the element itself, ``smoothed`` (e, 10, 6) of the nodal averages;
+    ``volumes`` (e,) of the elements, mm^3.
     """
 
     raw: Reals
@@ -103,7 +103,7 @@ class ElementStress:
 
     @property
     def jumps(self) -> Reals:
-        """How far each element is from the average, (e, 10, 6)."""
+        """Differences of each element from the nodal averages, (e, 10, 6)."""
         return self.raw - self.smoothed
 
 

@@ -24,7 +24,7 @@ def write_vtu(path: Path, solution: Solution) -> None:
     import meshio
 
     mesh = solution.problem.mesh
-    # VTK's last two mid-edge nodes are those of (1, 3) and (2, 3): Gmsh's the other way round
+    # VTK's last two mid-edge nodes are those of (1, 3) and (2, 3), in Gmsh they are swapped
     cells = mesh.tets[:, [0, 1, 2, 3, 4, 5, 6, 7, 9, 8]]
     fields = {
         "displacement_mm": solution.displacement,
