@@ -1,4 +1,4 @@
-"""Residual and tangent of a problem at a state, assembled straight into CSR values."""
+"""Residual and tangent of a problem at a state, assembled directly into CSR values."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ from solver.problem.unknowns import Numbering, number_unknowns
 
 @dataclass(frozen=True)
 class Equilibrium:
-    """How far a state is from equilibrium, over the unknowns (m,).
+    """Residual and tangent at a state, over the unknowns (m,).
 
     ``residual`` is internal minus external force (N) and constraint violation (mm^3); ``force``
     its derivative with respect to the applied pressure (mm^2); ``tangent`` the CSR values of its
@@ -46,13 +46,13 @@ class Equilibrium:
 
     @property
     def admissible(self) -> bool:
-        """No element is turned inside out and every number is finite."""
+        """No element is inverted and every number is finite."""
         finite = np.isfinite(self.residual).all() and np.isfinite(self.tangent).all()
         return bool(self.smallest_jacobian > 0 and finite)
 
 
 class Assembly:
-    """A problem with everything that depends on its mesh alone: numbering, pattern, places."""
+    """Numbering, sparsity pattern and element data of a problem: what no state changes."""
 
     problem: Problem
     numbering: Numbering
@@ -83,38 +83,44 @@ class Assembly:
     def evaluate(
         self, state: State, pressure: float, tangent: bool = True, load: float = 0.0
     ) -> Equilibrium:
-        """Residual and tangent at ``state`` under ``pressure`` (MPa) and a share of dead loads."""
+        """Residual and tangent at ``state``, ``pressure`` (MPa) and a fraction of dead loads."""
         residual = np.zeros(self.numbering.size)
         force = np.zeros(self.numbering.size)
         values = np.zeros(len(self.pattern.indices) if tangent else 0)
+        smallest = self._add_solid(state, tangent, residual, values)
+        self._add_pressure(state, pressure, tangent, force, values)
+        residual += pressure * force - load * self.dead_force
+        values, pattern = self.contacts.add(state, tangent, residual, values)
+        return Equilibrium(residual, force, values, smallest, pattern)
+
+    def _add_solid(self, state: State, tangent: bool, residual: Reals, values: Reals) -> float:
+        """Add all elements to ``residual`` and ``values``; the smallest J."""
         jacobians = np.empty(len(self.problem.mesh.tets))
         displacement = np.ascontiguousarray(state.displacement)
         assemble(
             self._solid, self._places, displacement, state.hydrostatic_pressure,
             self._geometric(state), tangent, residual, values, jacobians,
         )  # fmt: skip
-        if self.plane is None:
-            assemble_pressure(self._facets, displacement, pressure, tangent, force, values)
-        else:
-            heights = self.plane.heights(state)
+        if self.plane is not None:
             assemble_plane(
-                self._solid, self._at_plane, heights, state.plane[0], self._plane_dofs,
-                self._plane_entries, displacement, state.hydrostatic_pressure,
+                self._solid, self._at_plane, self.plane.heights(state), state.plane[0],
+                self._plane_dofs, self._plane_entries, displacement, state.hydrostatic_pressure,
                 tangent, residual, values, jacobians,
             )  # fmt: skip
-            assemble_volume(
-                self._facets,
-                heights,
-                state.plane[0],
-                displacement,
-                pressure,
-                tangent,
-                force,
-                values,
-            )
-        residual += pressure * force - load * self.dead_force
-        values, pattern = self.contacts.add(state, tangent, residual, values)
-        return Equilibrium(residual, force, values, float(jacobians.min(initial=np.inf)), pattern)
+        return float(jacobians.min(initial=np.inf))
+
+    def _add_pressure(
+        self, state: State, pressure: float, tangent: bool, force: Reals, values: Reals
+    ) -> None:
+        """Add unit-pressure forces to ``force`` and the tangent of ``pressure`` to ``values``."""
+        displacement = np.ascontiguousarray(state.displacement)
+        if self.plane is None:
+            assemble_pressure(self._facets, displacement, pressure, tangent, force, values)
+            return
+        assemble_volume(
+            self._facets, self.plane.heights(state), state.plane[0], displacement, pressure,
+            tangent, force, values,
+        )  # fmt: skip
 
     def extrapolated_stress(self, state: State, increment: State) -> Reals:
         """Stress after an increment from a state, to first order: a ``State.geometric_stress``.
@@ -134,7 +140,7 @@ class Assembly:
         return float(solid[0]) + self.contacts.energy(state)
 
     def _geometric(self, state: State) -> Reals:
-        """A state's geometric stress as the kernels want it: (e, 0, 6) for none."""
+        """A state's geometric stress in the form of the kernels: (e, 0, 6) for none."""
         stress = state.geometric_stress
         return stress if len(stress) else np.empty((len(self.problem.mesh.tets), 0, 6))
 
@@ -152,7 +158,7 @@ class Assembly:
 
 
 def unbalanced_forces(problem: Problem, state: State, pressure: float, load: float) -> Reals:
-    """Nodal forces (n, 3) in N that are missing to equilibrium: zero but where supports act.
+    """Out-of-balance nodal forces (n, 3) in N: zero except where supports act.
 
     Under ``pressure`` (MPa) and the fraction ``load`` of the dead loads.
     """
@@ -192,7 +198,7 @@ def _joined(dofs: Integers, at_plane: NDArray[np.bool_], plane_dofs: Integers) -
 
 
 def solid(problem: Problem) -> Solid:
-    """Mesh, material and quadrature of a problem as the kernels see them."""
+    """Mesh, material and quadrature of a problem, as arrays for the kernels."""
     mesh, material, rule = problem.mesh, problem.material, tetrahedron_rule()
     constants = material.constants
     return Solid(

@@ -1,9 +1,9 @@
-"""The equilibrium path by arc length: through limit points, where the load has to fall again.
+"""The equilibrium path by arc length, through limit points of the load.
 
-Each step goes along the unit tangent of the path and comes back to it at a right angle (Riks 1979,
-in Ramm's form with a linear constraint; lengths are measured in displacements alone). Where the
-slope of the load changes its sign there is a limit point; where the inertia of the tangent changes
-without that, a bifurcation.
+Each step is predicted along the unit tangent of the path and corrected at a right angle to it (Riks
+1979, in Ramm's form with a linear constraint; lengths are measured in displacements alone). Where
+the slope of the load changes its sign there is a limit point; where the inertia of the tangent
+changes without that, a bifurcation.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from solver.problem.problem import Problem
 from solver.results.solution import PathPoint
 
 LONGEST_STEP = 0.05
-"""Longest step of the nodes' root mean square, in units of the body's diagonal."""
+"""Longest step, root mean square over the nodes, in units of the body's diagonal."""
 
 
 @dataclass(frozen=True)
@@ -44,7 +44,7 @@ class Limit:
     point: PathPoint
 
     def describe(self, pressure: float) -> str:
-        """In words, for a whole load with that pressure (MPa)."""
+        """As text, for a whole load with that pressure (MPa)."""
         load = self.point.load
         at = f"p = {load * pressure:.4g} MPa" if pressure else f"{100 * load:.4g} % of the load"
         if self.kind == "bifurcation":
@@ -112,26 +112,36 @@ def trace(
     points: list[PathPoint] = []
     states: list[State] = []
     limits: list[Limit] = []
-    message = "no further step succeeds."
+    message = ""
     first = follower.start(State.zero(problem), 0.0, newton.options.first_step or FIRST_STEP)
     for number, (arc, limit) in enumerate(follower.along(first)):
         points.append(limit.point if limit else follower.point(arc))
         states.append(arc.equilibrium.state)
         limits += [limit] if limit else []
-        if arc.equilibrium.load >= 1:
-            message = "the asked load is reached."
+        message = _reason_to_end(arc, points[-1], until, number, steps)
+        if message:
             break
-        if until is not None and until(points[-1]):
-            message = "it ends where it was asked to."
-            break
-        if number >= steps:
-            message = f"it ends after {steps} steps."
-            break
+    message = message or "no further step succeeds."
     return Trace(tuple(points), tuple(states), tuple(limits), message)
 
 
+def _reason_to_end(
+    arc: Arc,
+    point: PathPoint,
+    until: Callable[[PathPoint], bool] | None,
+    number: int,
+    steps: int,
+) -> str:
+    """Why a traced path ends at its point ``number``; empty if it continues."""
+    if arc.equilibrium.load >= 1:
+        return "the asked load is reached."
+    if until is not None and until(point):
+        return "it ends where it was asked to."
+    return f"it ends after {steps} steps." if number >= steps else ""
+
+
 def limit_ahead(newton: Newton, state: State, load: float, steps: int) -> Limit | None:
-    """The first limit beyond a state, if it is within so many steps."""
+    """The first limit after a state, if it is within so many steps."""
     follower = PathFollower.of(newton, LONGEST_STEP)
     arcs = follower.along(follower.start(state, load, newton.options.smallest_step))
     return next((limit for _, limit in islice(arcs, steps + 1) if limit), None)
@@ -141,14 +151,14 @@ def limit_ahead(newton: Newton, state: State, load: float, steps: int) -> Limit 
 class Arc:
     """An equilibrium, the path's unit ``tangent`` (m,) and the load's ``slope`` (1/mm) along it.
 
-    ``length``: how far to step next, ``came``: how long the step to here was, mm.
+    ``length`` of the next step, ``arrived_by``: length of the step to here, mm.
     """
 
     equilibrium: EquilibriumPoint
     tangent: Reals
     slope: float
     length: float
-    came: float = 0.0
+    arrived_by: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -172,7 +182,7 @@ class PathFollower:
         return self._arc(equilibrium_point(self.newton, state, load), None, first_step)
 
     def along(self, arc: Arc) -> Iterator[tuple[Arc, Limit | None]]:
-        """The path from ``arc`` on, with the limits on it; ends where no step succeeds."""
+        """The path from ``arc``, with the limits on it; ends where no step succeeds."""
         yield arc, None
         while not arc.equilibrium.failure:
             follows = self._next(arc)
@@ -190,7 +200,7 @@ class PathFollower:
         return self.newton.point(there.state, there.load, there.iterations, there.stable)
 
     def _next(self, arc: Arc) -> Arc:
-        """The next arc; its length grows where Newton is quick, and is cut where it fails."""
+        """The next arc; lengths grow where Newton converges fast, and are cut on failure."""
         length = arc.length
         for _ in range(MOST_CUTS):
             follows = self._step(arc, length)
@@ -201,30 +211,32 @@ class PathFollower:
         return follows
 
     def _step(self, arc: Arc, length: float) -> Arc:
-        """One step of a given length; it fails too where the path would turn sharply."""
+        """One step of a given length; it also fails where the tangent turns sharply."""
         newton, here = self.newton, arc.equilibrium
         load = here.load + arc.slope * length
         direction = newton.system.expanded(arc.tangent)
         moved = newton.kinematics.advanced(here.state, direction, length)
         guess = newton.kinematics.with_motions(moved, load)
 
-        def back_to_the_plane(_s: State, _e: Equilibrium, r: Reals, d: Reals) -> float:
+        def normal_plane(_s: State, _e: Equilibrium, r: Reals, d: Reals) -> float:
             return -self._product(arc.tangent, r) / self._product(arc.tangent, d)
 
-        found = corrected(newton, guess, load, back_to_the_plane)
+        found = corrected(newton, guess, load, normal_plane)
         growth = GROWTH if found.iterations <= FEW_ITERATIONS else 1.0
-        follows = replace(self._arc(found, arc.tangent, growth * length), came=length)
+        follows = replace(self._arc(found, arc.tangent, growth * length), arrived_by=length)
         if not found.failure and self._product(follows.tangent, arc.tangent) < SHARPEST_TURN:
-            return Arc(EquilibriumPoint(found.state, found.load, failure="a sharp turn"), *_NOWHERE)
+            return Arc(
+                EquilibriumPoint(found.state, found.load, failure="a sharp turn"), *_NO_TANGENT
+            )
         return follows
 
     def _arc(self, found: EquilibriumPoint, before: Reals | None, length: float) -> Arc:
-        """An equilibrium with its tangent, forward as seen from the tangent ``before``.
+        """An equilibrium with its tangent, at an acute angle to the tangent ``before``.
 
-        Without one the load goes up, and ``length`` is its step.
+        Without that one the load increases, and ``length`` is its step.
         """
         if found.failure or found.direction is None:
-            return Arc(found, *_NOWHERE)
+            return Arc(found, *_NO_TANGENT)
         speed = float(np.sqrt(self._product(found.direction, found.direction)))
         if before is None:
             length *= speed
@@ -233,19 +245,19 @@ class PathFollower:
         return Arc(found, found.direction / speed, float(1 / speed), min(length, self.longest))
 
     def _limit_between(self, a: Arc, b: Arc) -> tuple[Arc, Limit] | None:
-        """The limit between two neighbours."""
+        """The limit between two successive arcs, if there is one."""
         if a.slope * b.slope < 0:
-            turn = self._turn_between(a, b)
+            turn = self._extremum_between(a, b)
             kind: Literal["maximum", "minimum"] = "maximum" if a.slope > 0 else "minimum"
             return turn, Limit(kind, self.point(turn))
         if a.equilibrium.unstable_modes != b.equilibrium.unstable_modes:
-            change = self._change_between(a, b)
+            change = self._bifurcation_between(a, b)
             return change, Limit("bifurcation", self.point(change))
         return None
 
-    def _change_between(self, a: Arc, b: Arc) -> Arc:
-        """The first arc known to be stable in another number of ways than ``a``: by halving."""
-        low, high, found = 0.0, b.came, b
+    def _bifurcation_between(self, a: Arc, b: Arc) -> Arc:
+        """The first arc found with another number of unstable modes than ``a``, by bisection."""
+        low, high, found = 0.0, b.arrived_by, b
         for _ in range(HALVINGS):
             middle = self._step(a, (low + high) / 2)
             if middle.equilibrium.unstable_modes == a.equilibrium.unstable_modes:
@@ -254,9 +266,9 @@ class PathFollower:
                 high, found = (low + high) / 2, middle
         return found
 
-    def _turn_between(self, a: Arc, b: Arc) -> Arc:
-        """Where the slope vanishes between two arcs: bracketed secants."""
-        (low, rising), (high, falling), best = (0.0, a.slope), (b.came, b.slope), b
+    def _extremum_between(self, a: Arc, b: Arc) -> Arc:
+        """The arc between two others where the slope of the load vanishes, by bracketed secants."""
+        (low, rising), (high, falling), best = (0.0, a.slope), (b.arrived_by, b.slope), b
         for _ in range(MOST_SECANTS):
             share = rising / (rising - falling)
             length = low + min(max(share, 0.05), 0.95) * (high - low)
@@ -280,10 +292,10 @@ MOST_CUTS = 8
 MOST_SECANTS = 8
 HALVINGS = 6
 FLAT = 1e-3
-"""A slope so many times smaller than before is that of a limit point."""
+"""Ratio of slopes below which the smaller one is that of a limit point."""
 FEW_ITERATIONS = 4
 GROWTH = 1.5
 SHARPEST_TURN = 0.7
 """Least cosine between the tangents at both ends of a step."""
 
-_NOWHERE = (np.zeros(0), 0.0, 0.0)
+_NO_TANGENT = (np.zeros(0), 0.0, 0.0)
