@@ -15,12 +15,12 @@ from solver.numerics.compiled import compiled
 
 
 class Places(NamedTuple):
-    """Where elements are added in, and in which order.
+    """Order of the elements, and positions of their entries in residual and tangent.
 
     Chunk c has the elements ``order[chunks[c]:chunks[c + 1]]``; chunks ``colours[k]`` to
     ``colours[k + 1]`` share no node, so they can be added in parallel. ``dofs`` (e, 34) and
-    ``entries`` (e, 595) are the places in the residual and in the CSR values, -1 where an unknown
-    is prescribed.
+    ``entries`` (e, 595) are positions in the residual and in the CSR values, -1 where an unknown is
+    prescribed.
     """
 
     order: Integers
@@ -78,12 +78,12 @@ def assemble(
 
     ``displacement`` (n, 3), ``pressure`` (v,), ``geometric`` (e, q, 6) as for ``element_response``,
     or (e, 0, 6). ``jacobians`` (e,) takes each element's smallest J.
-    Chunks of a colour go in parallel, colours one after the other: the sums do not depend on the
-    number of threads.
+    Chunks of a colour are added in parallel, colours one after the other, so that the sums do not
+    depend on the number of threads.
     """
     for colour in range(places.colours.size - 1):
         first, end = places.colours[colour], places.colours[colour + 1]
-        if end - first == 1:  # waking the other threads would cost more than it saves
+        if end - first == 1:  # a parallel region would cost more than it saves
             assemble_chunk(
                 solid,
                 places,

@@ -12,11 +12,11 @@ from solver.kernels.scatter import mirror_upper, scatter
 from solver.numerics.compiled import compiled
 
 UNKNOWNS = 20
-"""Of a triangle: three for each of six nodes, then tilt and shift of the moving plane."""
+"""Unknowns of a triangle: three for each of six nodes, then tilt and shift of the moving plane."""
 
 
 class Face(NamedTuple):
-    """Triangles that may touch a plane, as the kernels see them.
+    """Triangles that may touch a plane, as arrays for the kernels.
 
     ``nodes`` (n, 3), ``triangles`` (k, 6), quadratic ``shapes`` (q, 6), reference ``areas`` (k, q)
     that the quadrature points stand for, ``dofs`` (k, 20), ``stiffness`` (MPa/mm) and
@@ -127,7 +127,7 @@ def assemble_contact(
 ) -> None:
     """Add a face's contact forces to ``residual`` (N) and the tangent to the CSR ``values``.
 
-    ``entries`` (k, 210) are the places in the values; ``heights`` (n,) of the nodes on the moving
+    ``entries`` (k, 210) are positions in the values; ``heights`` (n,) of the nodes on the moving
     plane, NaN for all others, and its ``tilt`` (rad).
     """
     r = np.empty(UNKNOWNS)

@@ -7,7 +7,7 @@ Energy of the mixed form, with the hydrostatic pressure q (positive in compressi
 where e_i = ln(lambda_i) - ln(J) / 3 are the isochoric principal log stretches, and G the Legendre
 transform of the volumetric energy U: its derivative is G' = theta(q) - 1, with U'(theta) = -q, so
 that q enforces J = theta(q). Incompressible means theta = 1 and G = 0 (1 / K = 0). Residual and
-tangent are the first and second derivatives of Pi, so the tangent is symmetric. Everything starts
+tangent are the first and second derivatives of Pi, so the tangent is symmetric. All is computed
 from the displacement gradient H and the spectrum of b - 1 = H + H^T + H H^T, so that small strains
 keep full relative precision.
 
@@ -39,7 +39,7 @@ UNKNOWNS = 34
 
 
 class Solid(NamedTuple):
-    """A meshed body as the kernels see it.
+    """Mesh, material and quadrature of a body, as arrays for the kernels.
 
     ``nodes`` (n, 3), ``tets`` (e, 10), ``tet_vertices`` (e, 4) in the numbering of pressures;
     the number of the material's ``law`` in the table of laws and its ``constants`` (c,),

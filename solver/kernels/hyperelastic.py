@@ -31,7 +31,7 @@ def principal_response(
 ) -> None:
     """Kirchhoff stress and its spatial tangent in principal axes.
 
-    ``logs`` and the diagonal of ``b`` as ``spectrum`` leaves them; ``spherical`` = -q J is added
+    ``logs`` and the diagonal of ``b`` as ``spectrum`` fills them; ``spherical`` = -q J is added
     to the deviatoric part. Fills ``stress`` (3,), ``normal`` (3, 3) = d tau_i / d ln(l_j)
     - 2 tau_i delta_ij, and ``shear`` (3,) of the pairs (0, 1) (1, 2) (2, 0).
     """

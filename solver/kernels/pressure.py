@@ -12,15 +12,15 @@ from solver.kernels.scatter import scatter
 from solver.numerics.compiled import compiled
 
 UNKNOWNS = 18
-"""Of a triangle."""
+"""Number of a triangle's unknowns."""
 
 
 class PressureFacets(NamedTuple):
-    """Pressurised triangles as the kernels see them.
+    """Pressurised triangles, as arrays for the kernels.
 
     ``nodes`` (n, 3), ``triangles`` (k, 6); quadratic ``shapes`` (q, 6), their ``gradients``
     (q, 6, 2) and ``weights`` (q,) at the quadrature points; ``dofs`` (k, 18) and ``entries``
-    (k, 171) are the places in force and CSR values, -1 where an unknown is prescribed. With a
+    (k, 171) are positions in force and CSR values, -1 where an unknown is prescribed. With a
     moving plane they are (k, 20) and (k, 210).
     """
 
@@ -145,9 +145,9 @@ def assemble_volume(
     force: Reals,
     values: Reals,
 ) -> None:
-    """What ``assemble_pressure`` does, for a cavity that opens into a moving plane.
+    """``assemble_pressure`` for a cavity whose opening lies in a moving plane.
 
-    ``heights`` (n,) and ``tilt`` (rad) as for ``kernels.assemble_plane``.
+    ``heights`` (n,) and ``tilt`` (rad) as for ``assemble_plane``.
     """
     f = np.empty(UNKNOWNS + 2)
     k = np.empty((UNKNOWNS + 2, UNKNOWNS + 2))

@@ -1,4 +1,4 @@
-"""Adding the matrices of elements in their places."""
+"""Addition of element vectors and matrices to the global ones."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def scatter(
     residual: Reals,
     values: Reals,
 ) -> None:
-    """Add r (m,) and ``factor`` times the upper triangle of k (m, m) in their places."""
+    """Add r (m,) to ``residual``, ``factor`` times the upper half of k (m, m) to ``values``."""
     entry = 0
     for i in range(r.size):
         if dofs[i] >= 0:

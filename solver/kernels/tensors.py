@@ -17,8 +17,8 @@ from solver.numerics.compiled import compiled
 def jacobi(a: Reals, vectors: Reals) -> None:
     """Eigenvalues of the symmetric (3, 3) ``a``, left on its diagonal; ``vectors`` in columns.
 
-    Cyclic Jacobi rotations until the rest is negligible against rounding; equal eigenvalues need
-    no special care.
+    Cyclic Jacobi rotations until the off-diagonal part is below rounding; equal eigenvalues are no
+    special case.
     """
     for i in range(3):
         for j in range(3):
@@ -97,8 +97,8 @@ def deformation_gradient(h: Reals, f: Reals) -> None:
 def spectrum(h: Reals, b: Reals, vectors: Reals, logs: Reals) -> None:
     """Principal axes of b = (1 + h)(1 + h)^T and isochoric log stretches.
 
-    Leaves the eigenvalues of b - 1 on the diagonal of the scratch ``b``, the principal axes in the
-    columns of ``vectors`` and e_i in ``logs``.
+    Fills the diagonal of ``b`` with the eigenvalues of b - 1, the columns of ``vectors`` with the
+    principal axes, and ``logs`` with e_i.
     """
     for i in range(3):
         for j in range(3):
