@@ -12,7 +12,7 @@ from solver.mesh.mesh import Mesh
 from solver.results.solution import Solution
 
 CANDIDATES = 24
-"""Elements with the nearest centres, in which a point is looked for."""
+"""Elements with the nearest centres, in which a point is searched."""
 
 OUTSIDE = 0.02
 """Points outside of an element by no more than this, in barycentric coordinates, count as inside:

@@ -33,7 +33,7 @@ class Equilibrium:
 
     ``residual`` is internal minus external force (N) and constraint violation (mm^3); ``force``
     its derivative with respect to the applied pressure (mm^2); ``tangent`` the CSR values of its
-    derivative with respect to the unknowns, in ``pattern``, empty if not asked for.
+    derivative with respect to the unknowns, in ``pattern``, empty if not requested.
     ``smallest_jacobian`` is the least J of all quadrature points; the rest is meaningless unless it
     is positive.
     """

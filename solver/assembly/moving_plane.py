@@ -24,7 +24,7 @@ from solver.problem.supports import pin
 
 @dataclass(frozen=True)
 class MovingPlane:
-    """Nodes (k,) on the plane, their reference positions (k, 3), and the index of the held one."""
+    """Nodes (k,) on the plane, their reference positions (k, 3), and the index of the pin."""
 
     nodes: Integers
     positions: Reals

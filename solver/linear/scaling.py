@@ -45,7 +45,7 @@ class Scaled:
 
     @property
     def name(self) -> str:
-        """As for A; a fallback changes it on the way."""
+        """As for A; that of a fallback may change."""
         return self._solver.name
 
     @property

@@ -29,7 +29,7 @@ class SizeField:
     """Wanted edge lengths of the next mesh, as a field on a mesh of the same body.
 
     Attributes:
-        mesh: the mesh at hand.
+        mesh: the present mesh.
         sizes: wanted at its nodes.
 
             *Shape:* (n,) in mm.

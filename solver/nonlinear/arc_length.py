@@ -178,7 +178,7 @@ class PathFollower:
         return PathFollower(newton, measured, longest_step * newton.problem.mesh.size)
 
     def start(self, state: State, load: float, first_step: float) -> Arc:
-        """A state as the start, with the load going up by ``first_step`` next."""
+        """A state as the start, with a first increment of the load by ``first_step``."""
         return self._arc(equilibrium_point(self.newton, state, load), None, first_step)
 
     def along(self, arc: Arc) -> Iterator[tuple[Arc, Limit | None]]:

@@ -47,7 +47,7 @@ DIVERGED = 1.0
 
 
 class NoCorrection(Exception):
-    """Why Newton's method cannot go on."""
+    """Newton's method cannot continue; the message says why."""
 
 
 @dataclass(frozen=True)
@@ -69,7 +69,7 @@ class Attempt:
     """Newton's outcome at one load: a state in equilibrium, or why there is none.
 
     ``imbalance``: the residual left there, relative to that of the load alone. ``direction``: the
-    equilibrium's derivative with respect to the load, if asked for. ``touched``: whether there was
+    equilibrium's derivative with respect to the load, if requested. ``touched``: whether there was
     contact in any iteration.
     """
 

@@ -23,7 +23,7 @@ SAMPLES = np.linspace(-1.0, 1.0, 9)
 
 
 def trusted_nodes(problem: Problem) -> NDArray[np.bool_]:
-    """Which nodes keep the problem's ``sharp_edge_radius`` from all sharp edges, (n,)."""
+    """Which nodes are farther than ``sharp_edge_radius`` from all sharp edges, (n,)."""
     from scipy.spatial import cKDTree
 
     mesh = problem.mesh
