@@ -49,9 +49,9 @@ def solve(
 ) -> Solution:
     """Equilibrium of ``problem`` under ``pressure``, reached from zero load.
 
-    Dead loads and prescribed motions of the problem grow in proportion with the pressure. A load
-    that cannot be reached gives the last equilibrium found, with ``converged`` False and a
-    ``message``, never a diverged state; ``limit`` is the pressure of a limit point that caused it.
+    Dead loads and prescribed motions of the problem grow with the pressure. A load that cannot be
+    reached gives the last equilibrium found, with ``converged`` False and a ``message``, never a
+    diverged state; ``limit`` is the pressure of a limit point that caused it.
 
     Args:
         problem: body, supports and loads.

@@ -75,8 +75,7 @@ class Contact:
 class Problem:
     """A hyperelastic solid under a follower pressure, dead loads and prescribed motions.
 
-    Loads and prescribed motions grow in proportion with the pressure, from nothing to their full
-    size.
+    Dead loads and prescribed motions grow with the pressure, from nothing to their full size.
 
     Attributes:
         mesh: the undeformed body.
@@ -87,7 +86,7 @@ class Problem:
         axis: if given, increments are applied as finite rotations along it (``SlenderMotion``).
         moving_plane: name of a plane surface normal to x that stays plane, free to rotate about y
             and to shift along x: the section between two cells of a uniform chain. It carries the
-            resultant of the pressure in the cavity beyond it (``MovingPlane``).
+            resultant of the pressure in the cavity beyond it (``MovingPlane``), and the couples.
         sharp_edge_radius: mm; stresses nearer than that to an edge at which the ideal body's are
             unbounded are left out of peaks (``solver.results.sharp_edges``).
         contacts: surfaces that may not cross planes of symmetry (``solver.assembly.contact``).
