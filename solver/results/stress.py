@@ -45,7 +45,7 @@ def nodal_von_mises(solution: Solution) -> Reals:
         solution: an equilibrium.
 
     Returns:
-        Averages over the elements at each node, weighted by their volumes.
+        Of the stress averaged over the elements at each node, weighted by their volumes.
 
         *Shape:* (n,) in MPa.
     """
