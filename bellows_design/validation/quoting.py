@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Iterable
 from pathlib import Path
 
@@ -36,6 +35,8 @@ def did_you_mean(unknown: str, known: Iterable[str]) -> str:
 
     A dotted word is also compared by its last part: ``pressure`` finds ``load.pressure``.
     """
+    import difflib
+
     words = list(known)
     unknown = unknown[:_LONGEST_COMPARED]
     last = unknown.rsplit(".", 1)[-1]

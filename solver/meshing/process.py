@@ -56,11 +56,6 @@ def ask(job: Message, seconds: float) -> Message:
     return _mesher(os.getpid()).ask(job, seconds)
 
 
-def process_id() -> int:
-    """Number of the process, which is started if none is running."""
-    return _mesher(os.getpid()).start()
-
-
 @cache
 def _mesher(process: int) -> _Mesher:
     """The mesher of this program; a forked copy of the program gets its own."""

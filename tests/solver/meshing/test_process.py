@@ -31,6 +31,11 @@ HUGE = MeshOptions(size=0.04, smallest_size=0.01)
 POSIX = pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
 
 
+def process_id() -> int:
+    """Number of the process that meshes, which is started if none is running."""
+    return meshing_process._mesher(os.getpid()).start()
+
+
 def ball() -> bytes:
     brep = BytesIO()
     cq.Solid.makeSphere(5.0, angleDegrees1=-90).exportBrep(brep)
@@ -75,7 +80,7 @@ def test_the_mesh_of_the_other_process_is_that_of_gmsh_here_bit_by_bit(tmp_path:
 
 def test_a_mesh_that_takes_too_long_is_given_up_and_the_next_one_made() -> None:
     first = meshed_ball()
-    process = meshing_process.process_id()
+    process = process_id()
     with pytest.raises(MeshingError, match=r"within 0\.4 s and was stopped"):
         meshed_ball(HUGE, seconds=0.4)
     assert soon(lambda: not is_running(process))
@@ -92,7 +97,7 @@ def test_a_limit_that_is_none_is_refused(seconds: float) -> None:
 @pytest.mark.parametrize("number", [signal.SIGSEGV, signal.SIGKILL])
 def test_a_crash_of_gmsh_is_a_sentence_and_the_next_mesh_is_made(number: signal.Signals) -> None:
     meshed_ball()
-    crash = threading.Timer(0.3, os.kill, (meshing_process.process_id(), number))
+    crash = threading.Timer(0.3, os.kill, (process_id(), number))
     crash.start()
     with pytest.raises(MeshingError, match=f"Gmsh crashed on this solid .{number.name}"):
         meshed_ball(HUGE)
@@ -102,7 +107,7 @@ def test_a_crash_of_gmsh_is_a_sentence_and_the_next_mesh_is_made(number: signal.
 @POSIX
 def test_an_interrupted_mesh_is_given_up_and_its_answer_not_taken_for_the_next() -> None:
     expected = meshed_ball()
-    process = meshing_process.process_id()
+    process = process_id()
     threading.Timer(0.3, signal.raise_signal, (signal.SIGINT,)).start()
     usual = signal.signal(signal.SIGINT, signal.default_int_handler)
     try:
@@ -117,7 +122,7 @@ def test_an_interrupted_mesh_is_given_up_and_its_answer_not_taken_for_the_next()
 @POSIX
 def test_a_process_that_died_while_idle_is_replaced_silently() -> None:
     meshed_ball()
-    os.kill(meshing_process.process_id(), signal.SIGKILL)
+    os.kill(process_id(), signal.SIGKILL)
     time.sleep(0.1)
     assert len(meshed_ball().tets) > 0
 
@@ -127,8 +132,8 @@ import sys, tempfile
 from pathlib import Path
 tempfile.tempdir = sys.argv[1]
 from solver.meshing import MeshOptions, mesh_solid
-from solver.meshing.process import process_id
-print(process_id(), flush=True)
+from solver.meshing.process import _mesher
+print(_mesher(os.getpid()).start(), flush=True)
 mesh_solid(Path(sys.argv[2]), ["skin"], MeshOptions(size=0.04, smallest_size=0.01))
 """
 
