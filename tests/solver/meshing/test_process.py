@@ -128,7 +128,7 @@ def test_a_process_that_died_while_idle_is_replaced_silently() -> None:
 
 
 ORPHANS = """
-import sys, tempfile
+import os, sys, tempfile
 from pathlib import Path
 tempfile.tempdir = sys.argv[1]
 from solver.meshing import MeshOptions, mesh_solid
