@@ -157,7 +157,7 @@ def test_gmsh_dies_with_a_killed_program_even_in_the_midst_of_a_mesh(tmp_path: P
     program.wait()
     program.stdout.close()
     assert soon(lambda: not is_running(process))
-    assert list(rooms.iterdir()) == []
+    assert soon(lambda: not any(rooms.iterdir()))
 
 
 def test_nothing_is_left_in_the_home_folder_and_gmsh_stays_out_of_this_process(
