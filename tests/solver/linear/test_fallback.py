@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
+from inertia import needs_feral
 
 from solver import Mesh, Ogden, Problem, Solution, SolverOptions, Supports, solve
 from solver.arrays import Reals
@@ -82,11 +83,11 @@ def pulled(mesh: Mesh, material: Ogden) -> Solution:
     return solve(Problem(mesh, material, Supports(clamped=("x0",)), ("x1",)), 0.05, FERAL)
 
 
+@needs_feral
 @pytest.mark.parametrize("size", [1.0, 1000.0])  # far units are scaled
 def test_the_result_says_which_solvers_it_took(
     box: Callable[..., Mesh], ninjaflex: Ogden, monkeypatch: pytest.MonkeyPatch, size: float
 ) -> None:
-    pytest.importorskip("feral")
     mesh = box((2, 1, 1), (2 * size, size, size))
     usual = pulled(mesh, ninjaflex)
     assert usual.linear_solver == "feral" and usual.stable

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from inertia import needs_feral
 from scipy.sparse import csr_array
 
 from solver import Mesh, Ogden, Problem, Supports, Trace, trace
@@ -21,7 +22,7 @@ from solver.linear.interface import SingularMatrix
 from solver.linear.solvers import linear_solver
 from solver.linear.sparsity import Pattern
 
-pytest.importorskip("feral")
+pytestmark = needs_feral
 
 Meshes = Callable[..., Mesh]
 PLANES = Supports(symmetry={"x0": 0, "y0": 1, "z0": 2})
