@@ -8,8 +8,7 @@ other laws come from the solver's table, ``solver.material.laws``, as they stand
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from solver.material import laws as solver_laws
 
@@ -21,8 +20,7 @@ if TYPE_CHECKING:
 Fitter = Callable[["Measurements", "Weighted", "FitModel"], "Fit"]
 
 
-@dataclass(frozen=True)
-class FitModel:
+class FitModel(NamedTuple):
     """A form of a law that measurements are fitted with.
 
     Attributes:
@@ -45,8 +43,7 @@ class FitModel:
         return len(self.exponents) + self.exponents.count(None) + self.higher
 
 
-@dataclass(frozen=True)
-class Law:
+class Law(NamedTuple):
     """A material law.
 
     Attributes:

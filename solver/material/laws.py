@@ -16,13 +16,12 @@ This file itself imports no compiled code.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from importlib import import_module
 from types import ModuleType
+from typing import NamedTuple
 
 
-@dataclass(frozen=True)
-class Law:
+class Law(NamedTuple):
     """A row of the table: the law's ``name`` in files, and the ``module`` that implements it.
 
     ``constants``: their names in files. The energy is linear in them, in MPa; they may be of either
