@@ -15,7 +15,6 @@ import typer
 from bellows_design.analysis.model_names import ModelName
 from bellows_design.cli import actions
 from bellows_design.cli.answer import answer
-from bellows_design.cli.fit import fit as fit_measurements
 from bellows_design.cli.options import (
     Accuracy,
     AsJson,
@@ -163,4 +162,6 @@ def fit(
     as_json: AsJson = False,
 ) -> None:
     """Fit a rubber's constants to measured stress over stretch."""
+    from bellows_design.cli.fit import fit as fit_measurements
+
     answer(lambda: fit_measurements(data, model, output, yield_strength, plot), as_json)

@@ -7,40 +7,15 @@ other laws come from the solver's table, ``solver.material.laws``, as they stand
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import TYPE_CHECKING, NamedTuple
 
+from bellows_design.materials.fitting.fit_model import FitModel
 from solver.material import laws as solver_laws
 
 if TYPE_CHECKING:
     from bellows_design.materials.fitting.fit_result import Fit
     from bellows_design.materials.fitting.measurements import Measurements
     from bellows_design.materials.fitting.weighted import Weighted
-
-Fitter = Callable[["Measurements", "Weighted", "FitModel"], "Fit"]
-
-
-class FitModel(NamedTuple):
-    """A form of a law that measurements are fitted with.
-
-    Attributes:
-        name: As ``bellows fit --model`` takes it.
-        exponents: α of each term; None where it is fitted.
-        fitter: Function that fits it.
-        higher: Number of constants besides μ and α.
-        automatic: True if it is tried when the best model is asked for.
-    """
-
-    name: str
-    exponents: tuple[float | None, ...]
-    fitter: Fitter
-    higher: int = 0
-    automatic: bool = True
-
-    @property
-    def constants(self) -> int:
-        """Number of constants that are fitted."""
-        return len(self.exponents) + self.exponents.count(None) + self.higher
 
 
 class Law(NamedTuple):

@@ -15,10 +15,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from bellows_design.errors import DesignError
+from bellows_design.materials.fitting.fit_model import FitModel
 from bellows_design.materials.fitting.fit_result import BEST_ERROR, Choice, Fit
 from bellows_design.materials.fitting.measurements import Measurements
 from bellows_design.materials.fitting.weighted import Weighted
-from bellows_design.materials.laws import BEST, FIT_CHOICES, FIT_MODELS, FitModel
+from bellows_design.materials.laws import BEST, FIT_CHOICES, FIT_MODELS
 from bellows_design.validation.quoting import did_you_mean, quoted
 
 NOT_MUCH_WORSE = 10.0

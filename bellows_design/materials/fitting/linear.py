@@ -29,7 +29,7 @@ from solver.material.laws import law as solver_law
 from solver.material.laws import number_of
 
 if TYPE_CHECKING:
-    from bellows_design.materials.laws import FitModel
+    from bellows_design.materials.fitting.fit_model import FitModel
 
 
 @dataclass(frozen=True, eq=False)

@@ -35,7 +35,7 @@ from solver.material.homogeneous import MODES, nominal_stress
 from solver.material.ogden import packed
 
 if TYPE_CHECKING:
-    from bellows_design.materials.laws import FitModel
+    from bellows_design.materials.fitting.fit_model import FitModel
 
 LARGEST_EXPONENT = 30.0
 """Bound of |α|. Elastomers stay far below."""

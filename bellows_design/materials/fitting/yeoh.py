@@ -20,7 +20,7 @@ from solver.material.constants import Constants
 from solver.material.ogden import packed
 
 if TYPE_CHECKING:
-    from bellows_design.materials.laws import FitModel
+    from bellows_design.materials.fitting.fit_model import FitModel
 
 CONSTANTS = ("c10", "c20", "c30")
 LEAST = (0.0, -np.inf, 0.0)
