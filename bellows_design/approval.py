@@ -3,9 +3,10 @@
 Approved is a design for which every printability rule passes, the solver reached the design
 pressure, the highest von Mises stress keeps its limit *including its estimated error*, and the
 material is not strained beyond its elongation at break. Where the error reaches across the limit
-nothing is decided: the answer is no, and the remedy is a finer mesh, not another design. A missing
-rule or a missing error estimate is never taken for a pass. Strains outside of the range the
-material was tested in are a warning: the range is that of the tests, not of the material.
+nothing is decided: the answer is no, and the remedy is a finer mesh, not another design. A result
+that walls run through each other in, or a missing rule or error estimate, is never taken for a
+pass. Strains outside of the range the material was tested in are a warning: the range is that of
+the tests, not of the material. What cannot be judged is listed, with the reason.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ import math
 from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
+from bellows_design.analysis.error_estimate import LEAST_STRESS_ERROR
 from bellows_design.design.design import Design
 from printers import PrintabilityReport
 
@@ -24,7 +26,7 @@ if TYPE_CHECKING:
 REQUIRED_RULES = ("watertight", "airtightness", "minimum_lines", "cross_section")
 """Rules a report must contain: one that was not checked is not a pass."""
 
-Kind = Literal["printability", "convergence", "stress", "accuracy", "strain"]
+Kind = Literal["printability", "convergence", "contact", "stress", "accuracy", "strain"]
 
 
 @dataclass(frozen=True)
@@ -40,6 +42,14 @@ class Reason:
 
 
 @dataclass(frozen=True)
+class NotJudged:
+    """A rule that the verdict says nothing about, and why."""
+
+    rule: str
+    why: str
+
+
+@dataclass(frozen=True)
 class Verdict:
     """Approved, or refused for all of its reasons.
 
@@ -47,10 +57,12 @@ class Verdict:
         reasons: What speaks against the design, from printability and evaluation; empty if it is
             approved.
         warnings: Sentences that decide nothing.
+        not_judged: Rules that nothing is said about, for want of data.
     """
 
     reasons: tuple[Reason, ...]
     warnings: tuple[str, ...] = ()
+    not_judged: tuple[NotJudged, ...] = ()
 
     @property
     def approved(self) -> bool:
@@ -68,6 +80,7 @@ class Verdict:
             "approved": self.approved,
             "reasons": [asdict(reason) for reason in self.reasons],
             "warnings": list(self.warnings),
+            "not_judged": [asdict(rule) for rule in self.not_judged],
         }
 
 
@@ -82,7 +95,38 @@ def decide(design: Design, report: PrintabilityReport, state: LoadedState) -> Ve
     Returns:
         All reasons against the design; approval where there is none.
     """
-    return Verdict((*_print_reasons(report), *_load_reasons(design, state)), state.warnings)
+    reasons = (*_print_reasons(report), *_load_reasons(design, state))
+    return Verdict(reasons, state.warnings, _not_judged(design, state))
+
+
+def open_question(design: Design, report: PrintabilityReport, state: LoadedState) -> str:
+    """What a finer mesh may decide, as text; empty if nothing."""
+    verdict = decide(design, report, state)
+    if not verdict.undecided or not state.converged or _beyond_resolution(design, state):
+        return ""
+    limit, stress = design.max_von_mises, state.max_von_mises_mpa
+    return f"{stress:.3f} MPa are too near to the limit of {limit:g} MPa for their estimated error"
+
+
+def _beyond_resolution(design: Design, state: LoadedState) -> bool:
+    """True if the stress is nearer to its limit than any mesh can tell."""
+    stress = state.max_von_mises_mpa
+    return abs(stress - design.max_von_mises) <= LEAST_STRESS_ERROR * stress
+
+
+def _not_judged(design: Design, state: LoadedState) -> tuple[NotJudged, ...]:
+    """Rules without the data that they need."""
+    material, found = design.material, []
+    if state.strain.elongation_at_break is None:
+        why = f"the material {material.name} states no elongation at break"
+        found.append(NotJudged("elongation_at_break", why))
+    if state.strain.valid is None:
+        why = f"the material {material.name} does not state the strains of its tests"
+        found.append(NotJudged("tested_strain", why))
+    if state.stable is None:
+        why = "the linear solver cannot tell whether an equilibrium is stable"
+        found.append(NotJudged("stability", why))
+    return tuple(found)
 
 
 def _print_reasons(report: PrintabilityReport) -> tuple[Reason, ...]:
@@ -102,11 +146,28 @@ def _print_reasons(report: PrintabilityReport) -> tuple[Reason, ...]:
 
 def _load_reasons(design: Design, state: LoadedState) -> tuple[Reason, ...]:
     required, reached = design.load.pressure, state.pressure_mpa
+    if state.touch_pressure_mpa is not None or state.contact.void:
+        return (_contact_reason(required, state),)
     if not state.converged or not reached / required >= 1 - 1e-9:
         why = f": {state.message}" if state.message else "."
         message = f"The solver reached {reached:.4g} MPa of {required:g} MPa{why}"
         return (Reason("convergence", "pressure", reached, required, "MPa", message),)
     return (*_stress_reasons(design.max_von_mises, state), *_strain_reasons(state.strain))
+
+
+def _contact_reason(required: float, state: LoadedState) -> Reason:
+    """Walls touch that the model does not keep apart."""
+    touch = state.touch_pressure_mpa
+    if touch is None:
+        walls = " and ".join(state.contact.where)
+        message = f"{walls} touch at {required:g} MPa, and this model does not keep them apart."
+        return Reason("contact", "contact", required, required, "MPa", _sentence(message))
+    message = f"{state.message} The design may be judged at pressures up to {touch:.4g} MPa."
+    return Reason("contact", "contact", touch, required, "MPa", _sentence(message))
+
+
+def _sentence(text: str) -> str:
+    return text[:1].upper() + text[1:]
 
 
 def _strain_reasons(strain: ReachedStrain) -> tuple[Reason, ...]:
@@ -116,6 +177,14 @@ def _strain_reasons(strain: ReachedStrain) -> tuple[Reason, ...]:
     reached, allowed = 100 * strain.highest, 100 * limit
     message = f"The material is strained to {reached:.3g} % but breaks at {allowed:.3g} %."
     return (Reason("strain", "elongation_at_break", reached, allowed, "%", message),)
+
+
+def _remedy(stress: float, limit: float) -> str:
+    """What helps where the error reaches across the limit."""
+    if abs(stress - limit) <= LEAST_STRESS_ERROR * stress:
+        least = 100 * LEAST_STRESS_ERROR
+        return f"nearer than the {least:g} % that no mesh resolves; change the design or the load"
+    return "refine the mesh"
 
 
 def _stress_reasons(limit: float, state: LoadedState) -> tuple[Reason, ...]:
@@ -134,6 +203,6 @@ def _stress_reasons(limit: float, state: LoadedState) -> tuple[Reason, ...]:
         return (Reason("stress", "max_von_mises", stress, limit, "MPa", message),)
     message = (
         f"The highest von Mises stress is {stress:.3f} MPa, and its estimated error of "
-        f"{error:.3f} MPa reaches across the limit of {limit:g} MPa: refine the mesh."
+        f"{error:.3f} MPa reaches across the limit of {limit:g} MPa: {_remedy(stress, limit)}."
     )
     return (Reason("accuracy", "max_von_mises", stress, limit, "MPa", message),)

@@ -18,6 +18,9 @@ LEAST_MEMORY = 0.8
 MESH_SECONDS, LONGEST = 120.0, 86_400.0
 """s. Default and bound of the time limit of one mesh; the largest meshes took half of that."""
 
+SECONDS = 240.0
+"""s. Default time limit of an evaluation."""
+
 
 def default_memory() -> float:
     """Memory that an evaluation may take unless a limit is given, GiB."""
@@ -27,13 +30,17 @@ def default_memory() -> float:
 
 @dataclass(frozen=True)
 class Budget:
-    """Limits of an evaluation: ``memory`` in GiB, and ``mesh_seconds`` for each of its meshes.
+    """Limits of an evaluation.
+
+    ``memory`` in GiB; ``mesh_seconds`` for each of its meshes, and ``seconds`` for all of it: then
+    it stops with the last good state, and begins no mesh that would take longer.
 
     Raises ``DesignError`` if one is out of bounds.
     """
 
     memory: float = field(default_factory=default_memory)
     mesh_seconds: float = MESH_SECONDS
+    seconds: float = SECONDS
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.memory) and self.memory >= LEAST_MEMORY):
@@ -41,11 +48,12 @@ class Budget:
                 f"memory is {self.memory:g} GiB but must be finite and at least {LEAST_MEMORY:g} "
                 "GiB."
             )
-        if not 0 < self.mesh_seconds <= LONGEST:
-            raise DesignError(
-                f"mesh_seconds is {self.mesh_seconds:g} s but must lie above 0 and not above "
-                f"{LONGEST:g} s."
-            )
+        for name in ("mesh_seconds", "seconds"):
+            if not 0 < getattr(self, name) <= LONGEST:
+                raise DesignError(
+                    f"{name} is {getattr(self, name):g} s but must lie above 0 and not above "
+                    f"{LONGEST:g} s."
+                )
 
 
 DEFAULT = Budget()

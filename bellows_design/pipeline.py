@@ -79,18 +79,18 @@ def run(
         OSError: The files could not be written; then nothing has changed.
     """
     from bellows_design.analysis.evaluate import evaluate
-    from bellows_design.approval import decide
+    from bellows_design.approval import decide, open_question
     from bellows_design.export.approved import require_place
 
-    def undecided(state: LoadedState) -> bool:
-        return decide(design, report, state).undecided
+    def question(state: LoadedState) -> str:
+        return open_question(design, report, state)
 
     require_place(design.name, output_root)
     progress.stage("geometry")
     part = build_part(design)
     progress.stage("check")
     report = check(design, part)
-    evaluation = evaluate(design, progress=progress, budget=budget, refine_while=undecided)
+    evaluation = evaluate(design, progress=progress, budget=budget, open_question=question)
     verdict = decide(design, report, evaluation)
     return _settled(Outcome(design, report, evaluation, verdict), part, output_root)
 

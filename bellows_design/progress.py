@@ -16,6 +16,9 @@ from typing import Protocol, TextIO
 PAUSE = 2.0
 """s. Least time between two lines within a stage."""
 
+WORTH_NAMING = 0.1
+"""Fraction of a budget from which on it is named."""
+
 
 class Progress(Protocol):
     """Receives what a run is doing."""
@@ -23,8 +26,11 @@ class Progress(Protocol):
     def stage(self, name: str) -> None:
         """A stage begins: geometry, check, mesh, solve, export."""
 
-    def load(self, fraction: float, angle: float) -> None:
-        """The solver is at ``fraction`` of the load, with the tip turned by ``angle`` (degrees)."""
+    def load(self, fraction: float, angle: float, spent: float = 0.0) -> None:
+        """The solver is at ``fraction`` of the load, with the tip turned by ``angle`` (degrees).
+
+        ``spent``: fraction of the solve's budget of steps and seconds.
+        """
 
 
 @dataclass(frozen=True)
@@ -34,7 +40,7 @@ class Silence:
     def stage(self, name: str) -> None:
         """Ignored."""
 
-    def load(self, fraction: float, angle: float) -> None:
+    def load(self, fraction: float, angle: float, spent: float = 0.0) -> None:
         """Ignored."""
 
 
@@ -61,11 +67,12 @@ class ProgressLines:
         self._stage = name
         self._write(name)
 
-    def load(self, fraction: float, angle: float) -> None:
+    def load(self, fraction: float, angle: float, spent: float = 0.0) -> None:
         """Write how far the load has come, but not more often than every ``pause`` seconds."""
         if self.clock() - self._written >= self.pause:
             turned = f", bent {angle:.0f}°" if angle == angle else ""
-            self._write(f"{self._stage}: {100 * fraction:.0f} % of the load{turned}")
+            budget = f", {100 * spent:.0f} % of its budget spent" if spent >= WORTH_NAMING else ""
+            self._write(f"{self._stage}: {100 * fraction:.0f} % of the load{turned}{budget}")
 
     def _write(self, text: str) -> None:
         self._written = self.clock()

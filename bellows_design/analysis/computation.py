@@ -70,6 +70,11 @@ class Computation:
     seconds: Seconds = Seconds()
 
     @property
+    def seconds_left(self) -> float:
+        """What is left of the budget's time, s; not above 0 where it is spent."""
+        return self.budget.seconds - self.seconds.total
+
+    @property
     def solutions(self) -> tuple[Solution, ...]:
         """The solution on every mesh, the finest last."""
         return tuple(mesh.solution for mesh in self.solved)
@@ -95,11 +100,22 @@ class Computation:
         return all(solution.converged for solution in self.all_solutions)
 
     @property
+    def stopped(self) -> Solution | None:
+        """The solution that did not reach the design pressure; None if all did."""
+        return next((each for each in self.all_solutions if not each.converged), None)
+
+    @property
     def message(self) -> str:
         """How far the load came and why it stopped."""
         if self.ends is not None and not self.ends.converged:
             return f"the ends: {self.ends.message}"
         return self.finest.message
+
+    @property
+    def touch_pressure_mpa(self) -> float | None:
+        """Pressure from which walls touch that the model does not keep apart, MPa; None if none."""
+        stopped = self.stopped
+        return stopped.pressure if stopped is not None and stopped.stopped_by == "guard" else None
 
     @property
     def stable(self) -> bool | None:

@@ -42,7 +42,7 @@ def evaluate(
     pressures: Sequence[float] = (),
     progress: Progress = SILENCE,
     budget: Budget = DEFAULT,
-    refine_while: Callable[[LoadedState], bool] = lambda _: False,
+    open_question: Callable[[LoadedState], str] = lambda _: "",
 ) -> Evaluation:
     """Evaluate ``design`` at its design pressure, and at ``pressures`` between 0 and that.
 
@@ -54,8 +54,9 @@ def evaluate(
         progress: Listens to stages and load.
         budget: Memory (GiB) and seconds that a mesh may take. Refinement ends before a mesh that
             would exceed it; the error estimates then say what was reached.
-        refine_while: Asked with the state on the finest mesh; as long as it is true the mesh is
-            refined further, within the budget.
+        open_question: Asked with the state on the finest mesh what its error estimates leave open,
+            as text; empty if nothing. The mesh is refined further for it, within the budget, and
+            as long as refinement promises an answer.
 
     Returns:
         The evaluation; with ``converged`` False, of the last good state, where the load could not
@@ -70,11 +71,38 @@ def evaluate(
     computation = started(design, *choose(design, model), pressures, progress, budget)
     while not _enough(computation, accuracy_percent) and (plan := affordable_plan(computation)):
         computation = refined(computation, progress, plan)
-    state = loaded_state(computation)
-    while refine_while(state) and (plan := affordable_plan(computation)):
+    return _answered(computation, open_question, progress)
+
+
+def _answered(
+    computation: Computation, open_question: Callable[[LoadedState], str], progress: Progress
+) -> Evaluation:
+    """The evaluation once its error estimates answer the question, or refinement does not help."""
+    state, estimates = loaded_state(computation), []
+    while question := open_question(state):
+        estimates.append(state.error_estimate.max_von_mises_percent)
+        plan = affordable_plan(computation) if _promising(estimates) else None
+        if plan is None:
+            break
+        progress.stage(f"a finer mesh, because {question}")
         computation = refined(computation, progress, plan)
         state = loaded_state(computation)
     return evaluation_of(computation, state)
+
+
+MOST_FINER_MESHES = 4
+"""For one question. Each takes about twice as long as the one before."""
+
+STALLED = 0.9
+"""Ratio of two successive error estimates from which on a further mesh promises nothing."""
+
+
+def _promising(estimates: Sequence[float | None]) -> bool:
+    """Whether a further mesh may answer, by the error estimates (%) on the meshes so far."""
+    known = [estimate for estimate in estimates if estimate is not None]
+    if len(estimates) > MOST_FINER_MESHES or len(known) < len(estimates):
+        return False
+    return len(known) < 3 or known[-1] < STALLED * max(known[-3:-1])
 
 
 def evaluation_of(computation: Computation, state: LoadedState | None = None) -> Evaluation:
@@ -84,7 +112,6 @@ def evaluation_of(computation: Computation, state: LoadedState | None = None) ->
         design=computation.design,
         model=computation.model,
         reason=computation.reason,
-        contact=_contact(computation),
         meshes=_mesh_readings(computation),
         solver=_effort(computation.all_solutions),
         seconds=computation.seconds,
@@ -106,12 +133,14 @@ def loaded_state(computation: Computation) -> LoadedState:
         stable=computation.stable,
         pressure_mpa=computation.pressure_mpa,
         limit_pressure_mpa=computation.limit_pressure_mpa,
+        touch_pressure_mpa=computation.touch_pressure_mpa,
         bending_angle_deg=whole.bending_angle_deg,
         max_von_mises_mpa=peak.value,
         max_von_mises_position_mm=position(computation, peak),
         cavity_volume_mm3=whole.cavity_volume_mm3,
         error_estimate=error_estimate(computation),
         strain=reached_strain(computation.design.material, finest),
+        contact=_contact(computation),
     )
 
 

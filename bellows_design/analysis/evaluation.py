@@ -56,6 +56,8 @@ class LoadedState:
         pressure_mpa: Pressure reached, MPa; negative for a vacuum.
         limit_pressure_mpa: Pressure of the limit point that ended the load path, MPa; None if there
             was none.
+        touch_pressure_mpa: Pressure at which walls touch that the model does not keep apart, MPa;
+            the path ends there, and the design may be judged at less. None if none do.
         bending_angle_deg: Rotation of the tip against the root, degrees; past 360 where it curls
             on.
         max_von_mises_mpa: Highest von Mises Cauchy stress, MPa.
@@ -64,6 +66,7 @@ class LoadedState:
         cavity_volume_mm3: Air inside the whole deformed actuator, mm³.
         error_estimate: Estimated errors of angle and stress, percent.
         strain: How far the material is strained, and whether it is known there.
+        contact: Which walls touch, and how near the others come.
     """
 
     converged: bool
@@ -71,17 +74,19 @@ class LoadedState:
     stable: bool | None
     pressure_mpa: float
     limit_pressure_mpa: float | None
+    touch_pressure_mpa: float | None
     bending_angle_deg: float
     max_von_mises_mpa: float
     max_von_mises_position_mm: tuple[float, float, float]
     cavity_volume_mm3: float
     error_estimate: ErrorEstimate
     strain: ReachedStrain
+    contact: WallContact
 
     @property
     def warnings(self) -> tuple[str, ...]:
         """Sentences on what makes the numbers less reliable than they look."""
-        return self.strain.warnings
+        return (*self.strain.warnings, *self.contact.warnings)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -92,7 +97,6 @@ class Evaluation(LoadedState):
         design: The design evaluated.
         model: The body that stands for the actuator, with its supports and its load.
         reason: Why this model was chosen.
-        contact: Which walls touch, and how near the others come.
         meshes: Every mesh and its reading of the whole actuator, the finest last.
         solver: Load steps, iterations and factorizations of all solves.
         seconds: Time spent on geometry, meshes and solves, s.
@@ -104,7 +108,6 @@ class Evaluation(LoadedState):
     design: Design
     model: AnalysisModel
     reason: str
-    contact: WallContact
     meshes: tuple[MeshReading, ...]
     solver: SolverEffort
     seconds: Seconds
@@ -131,6 +134,7 @@ class Evaluation(LoadedState):
             "message": self.message,
             "stable": self.stable,
             "limit_pressure_mpa": self.limit_pressure_mpa,
+            "touch_pressure_mpa": self.touch_pressure_mpa,
             "bending_angle_deg": self.bending_angle_deg,
             "max_von_mises_mpa": self.max_von_mises_mpa,
             "max_von_mises_position_mm": list(self.max_von_mises_position_mm),

@@ -78,7 +78,7 @@ def refined(
         plan: The mesh to solve on, where it is at hand; else it is planned here.
 
     Returns:
-        A computation with one mesh more.
+        A computation with one mesh more; with none more where the time of the budget ended first.
 
     Raises:
         DesignError: The mesh would exceed the computation's budget.
@@ -94,6 +94,8 @@ def refined(
     progress.stage(f"solve {number}, {len(mesh.tets)} tetrahedra")
     solution = _solved_on(mesh, computation, progress)
     spent = Seconds(mesh=meshed - began, solve=time.perf_counter() - meshed)
+    if solution.stopped_by == "budget" and computation.solved and computation.converged:
+        return replace(computation, seconds=computation.seconds + spent)
     return replace(
         computation,
         solved=(*computation.solved, SolvedMesh(solution, peak_von_mises(solution))),
@@ -113,10 +115,24 @@ def next_plan(computation: Computation) -> PlannedMesh:
 
 def affordable_plan(computation: Computation) -> PlannedMesh | None:
     """The mesh after the finest; None without a solution to refine, or beyond the budget."""
-    if not computation.converged:
+    if not computation.converged or _next_seconds(computation) > computation.seconds_left:
         return None
     plan = next_plan(computation)
     return plan if plan.fits(computation.budget) else None
+
+
+def _next_seconds(computation: Computation) -> float:
+    """Time that a solve on the next mesh will take, s, from that on the finest."""
+    finest = computation.finest
+    each = finest.seconds / max(1, finest.factorizations)
+    return FACTORIZATIONS * each * computation.model.growth**SOLVE_ORDER
+
+
+FACTORIZATIONS = 8
+"""Of a solve that starts at the whole load from a coarser mesh, on a hard case."""
+
+SOLVE_ORDER = 1.5
+"""Growth of a factorization's time with the number of elements."""
 
 
 def _solved_on(mesh: Mesh, computation: Computation, progress: Progress) -> Solution:
@@ -126,7 +142,8 @@ def _solved_on(mesh: Mesh, computation: Computation, progress: Progress) -> Solu
     design, model, level = computation.design, computation.model, len(computation.solved)
     initial = transfer(computation.finest, mesh) if level else None
     only_a_step = level + 1 < model.levels
-    options = SolverOptions(tolerance=ROUGH) if only_a_step else None
+    tolerance = ROUGH if only_a_step else SolverOptions.tolerance
+    options = _options(computation, tolerance)
     stops = () if level and only_a_step else computation.pressures
     return _solved(design, model.problem(design, mesh), progress, options, initial, stops)
 
@@ -134,9 +151,8 @@ def _solved_on(mesh: Mesh, computation: Computation, progress: Progress) -> Solu
 def _with_ends(computation: Computation, progress: Progress) -> Computation:
     """With the solution of a short actuator, on the mesh size of the coarsest cell.
 
-    Contact is not modelled in it. That is right outside, where its bubble has no neighbours; but
-    where inner walls touch, the cell without its neighbours stands for the ends, without the stubs
-    of root and tip.
+    Contact is not modelled in it. Where inner walls touch, in the cell or in the short actuator,
+    the cell without its neighbours stands for the ends, without the stubs of root and tip.
     """
     from bellows_design.analysis.wall_contact import image_gap
     from bellows_design.geometry.actuator import CAVITY
@@ -144,7 +160,23 @@ def _with_ends(computation: Computation, progress: Progress) -> Computation:
     inner = image_gap(computation.finest, CAVITY)
     if inner is not None and inner <= 0:
         return _with_free_ends(computation, progress)
-    return _with_short_actuator(computation, progress)
+    short = _with_short_actuator(computation, progress)
+    if _stopped_inside(short):
+        return _with_free_ends(replace(short, ends=None), progress)
+    return short
+
+
+def _stopped_inside(computation: Computation) -> bool:
+    """Whether the short actuator stopped where its inner walls touch."""
+    from bellows_design.analysis.wall_contact import contact_of
+
+    ends = computation.ends
+    if ends is None or ends.stopped_by != "guard":
+        return False
+    bellows = shortened(computation.design).bellows
+    found = contact_of(bellows, ends.problem.mesh, ends.displacement)
+    outer, inner = found.min_gap_mm, found.inner_gap_mm
+    return inner is not None and (outer is None or inner <= outer)
 
 
 def _with_short_actuator(computation: Computation, progress: Progress) -> Computation:
@@ -172,13 +204,18 @@ def _with_free_ends(computation: Computation, progress: Progress) -> Computation
     return replace(computation, ends=ends, seconds=computation.seconds + spent)
 
 
+def _options(computation: Computation, tolerance: float) -> SolverOptions:
+    """For one more solve in the time that is left; at least a second, to end in good order."""
+    from solver import SolverOptions
+
+    return SolverOptions(tolerance=tolerance, seconds=max(1.0, computation.seconds_left))
+
+
 def _solved_roughly(
     design: Design, problem: Problem, computation: Computation, progress: Progress
 ) -> Solution:
     """Solve for the ends: what they add is small."""
-    from solver import SolverOptions
-
-    options = SolverOptions(tolerance=ROUGH)
+    options = _options(computation, ROUGH)
     return _solved(design, problem, progress, options, stops=computation.pressures)
 
 
@@ -186,15 +223,23 @@ def _solved(
     design: Design,
     problem: Problem,
     progress: Progress,
-    options: SolverOptions | None,
+    options: SolverOptions,
     initial: tuple[Reals, Reals] | None = None,
     stops: Sequence[float] = (),
 ) -> Solution:
     """Solve at the design's pressure and report the load reached."""
+    from bellows_design.analysis.wall_contact import touch_guard
     from solver import solve
 
     def report(event: Event) -> None:
-        progress.load(event.load, event.rotation)
+        progress.load(event.load, event.rotation, event.spent)
 
-    pressure = design.load.pressure
-    return solve(problem, pressure, options, listener=report, initial=initial, stops=stops)
+    return solve(
+        problem,
+        design.load.pressure,
+        options,
+        listener=report,
+        initial=initial,
+        stops=stops,
+        guard=touch_guard(design.bellows, problem),
+    )

@@ -1,8 +1,8 @@
 """Which walls touch under pressure, and how near the others come.
 
 The unit cell models contact with its mirror images: of neighbouring bubbles, and of a chamber's
-opposite walls. Half and full actuators model none: there walls run through each other, and the
-result says so.
+opposite walls. Half and full actuators model none, nor does the cell between its own inner walls:
+there a solve stops at the first touch, by ``touch_guard``.
 """
 
 from __future__ import annotations
@@ -19,12 +19,19 @@ from solver import Mesh
 from solver.mesh.proximity import OPPOSING, Gaps, facet_normals, facing_gaps
 
 if TYPE_CHECKING:
-    from solver import Solution
+    from solver import Problem, Solution
+    from solver.assembly.state import State
+    from solver.nonlinear.events import Guard
 
-NEIGHBOURS, INSIDE, ITSELF = "neighbouring bubbles", "inner walls", "distant parts"
+NEIGHBOURS, OUTER, INSIDE = "neighbouring bubbles", "outer walls", "inner walls"
+ITSELF = "distant parts"
 
 UNMODELLED = "this model lets walls through each other: its result does not hold past the touch"
 PARTLY = "inner walls meet where no contact is modelled: the result does not hold past the touch"
+OVERLAP = (
+    "distant parts of the actuator run through each other, as past a full turn: what they exert on "
+    "each other is not modelled"
+)
 FREE_ENDS = "as inner walls touch, each end is taken as half a bubble without a neighbour"
 
 
@@ -48,31 +55,70 @@ class WallContact:
     modelled: bool = False
     note: str = ""
 
+    @property
+    def void(self) -> bool:
+        """True if walls run through each other that do not in reality: the result does not hold."""
+        return self.detected and not self.modelled
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """A sentence for each thing that makes the result less reliable than it looks."""
+        found = (self.note, OVERLAP if self.overlaps_itself else "")
+        return tuple(f"{sentence}." for sentence in found if sentence)
+
+
+def touch_guard(bellows: BellowsParameters, problem: Problem) -> Guard:
+    """Refuses states of ``problem`` in which walls touch that it does not keep apart."""
+    cell = problem.moving_plane is not None
+
+    def refusal(state: State) -> str:
+        if cell:
+            touching = _unmodelled_in_cell(bellows, problem.mesh, state.displacement)
+        else:
+            found = contact_of(bellows, problem.mesh, state.displacement)
+            touching = tuple(name for name in found.where if name != ITSELF)
+        if not touching:
+            return ""
+        return f"{' and '.join(touching)} touch, and this model does not keep them apart"
+
+    return refusal
+
 
 def contact_of(bellows: BellowsParameters, mesh: Mesh, displacement: np.ndarray) -> WallContact:
     """Contact in an actuator, full or half, after ``displacement`` (n, 3), mm: none is modelled."""
-    outer, itself = _outer_gap(bellows, mesh, displacement)
+    outer = _outer_gaps(bellows, mesh, displacement)
     inner = _inner_gap(bellows, mesh, displacement)
-    touching = [_touches(outer), _touches(inner)]
-    where = _named(touching[0], touching[1], itself)
-    note = UNMODELLED if any(touching) else ""
-    return WallContact(any(touching), outer, itself, inner, where, modelled=False, note=note)
+    touching = (*outer.touching, *((INSIDE,) if _touches(inner) else ()))
+    return WallContact(
+        detected=bool(touching),
+        min_gap_mm=outer.narrowest,
+        overlaps_itself=outer.overlap,
+        inner_gap_mm=inner,
+        where=_with_overlap(touching, outer.overlap),
+        modelled=False,
+        note=UNMODELLED if touching else "",
+    )
 
 
 def contact_in_cell(bellows: BellowsParameters, cell: Solution) -> WallContact:
     """Contact in the actuator that a unit cell stands for, where the solver models it."""
-    _, itself = _outer_gap(bellows, *chain(bellows, cell))
+    overlap = _outer_gaps(bellows, *chain(bellows, cell)).overlap
     outer, inner = (image_gap(cell, surface) for surface in (OUTSIDE, CAVITY))
-    within = _gap_within(cell)
-    missed, touching = within is not None and within <= 0, [_touches(outer), _touches(inner)]
+    mesh, displacement = cell.problem.mesh, cell.displacement
+    missed = _unmodelled_in_cell(bellows, mesh, displacement)
+    within = _gap_within(mesh, displacement)
+    modelled = {NEIGHBOURS: _touches(outer), INSIDE: _touches(inner)}
+    touching = tuple(
+        name for name in (NEIGHBOURS, OUTER, INSIDE) if modelled.get(name) or name in missed
+    )
     return WallContact(
-        detected=missed or any(touching),
+        detected=bool(touching),
         min_gap_mm=outer,
-        overlaps_itself=itself,
+        overlaps_itself=overlap,
         inner_gap_mm=min((gap for gap in (inner, within) if gap is not None), default=None),
-        where=_named(touching[0], missed or touching[1], itself),
+        where=_with_overlap(touching, overlap),
         modelled=not missed,
-        note=PARTLY if missed else FREE_ENDS if touching[1] else "",
+        note=PARTLY if missed else FREE_ENDS if modelled[INSIDE] else "",
     )
 
 
@@ -86,11 +132,26 @@ def image_gap(cell: Solution, surface: str) -> float | None:
     return min((gap for gap in own if gap is not None), default=None)
 
 
-def _gap_within(cell: Solution) -> float | None:
+def _unmodelled_in_cell(
+    bellows: BellowsParameters, mesh: Mesh, displacement: np.ndarray
+) -> tuple[str, ...]:
+    """Names of walls of a cell that touch each other, not their mirror images."""
+    others = (name for name in mesh.surfaces if name != OUTSIDE)
+    outside = facing_gaps(mesh, displacement, OUTSIDE, *others, seen_from=(OUTSIDE,))
+    folded = (outside.distances[~_in_notch(bellows, outside)] <= 0).any()
+    names = {OUTER: folded, INSIDE: _touches(_gap_within(mesh, displacement))}
+    return tuple(name for name, touching in names.items() if touching)
+
+
+def _in_notch(bellows: BellowsParameters, gaps: Gaps) -> np.ndarray:
+    """Which gaps (k,) lie where a bubble stands on the tendon, at any small distance."""
+    return np.linalg.norm(gaps.starts - gaps.ends, axis=1) < bellows.bubble_distance / 2
+
+
+def _gap_within(mesh: Mesh, displacement: np.ndarray) -> float | None:
     """Air (mm) between a cell's own inner walls, such as the channel's floor and roof."""
-    mesh = cell.problem.mesh
     others = (name for name in mesh.surfaces if name != CAVITY)
-    gaps = facing_gaps(mesh, cell.displacement, CAVITY, *others, seen_from=(CAVITY,))
+    gaps = facing_gaps(mesh, displacement, CAVITY, *others, seen_from=(CAVITY,))
     return float(gaps.distances.min()) if gaps.distances.size else None
 
 
@@ -98,22 +159,36 @@ def _touches(gap: float | None) -> bool:
     return gap is not None and gap <= 0
 
 
-def _named(outer: bool, inner: bool, itself: bool) -> tuple[str, ...]:
-    names = zip((NEIGHBOURS, INSIDE, ITSELF), (outer, inner, itself), strict=True)
-    return tuple(name for name, touching in names if touching)
+def _with_overlap(touching: tuple[str, ...], overlap: bool) -> tuple[str, ...]:
+    return (*touching, ITSELF) if overlap else touching
 
 
-def _outer_gap(
-    bellows: BellowsParameters, mesh: Mesh, displacement: np.ndarray
-) -> tuple[float | None, bool]:
-    """Narrowest air between neighbouring bubbles, mm, and whether distant parts overlap."""
+@dataclass(frozen=True)
+class OuterGaps:
+    """``narrowest`` air between outer walls, mm; names of those ``touching``.
+
+    ``overlap``: distant parts run through each other.
+    """
+
+    narrowest: float | None
+    touching: tuple[str, ...]
+    overlap: bool
+
+
+def _outer_gaps(bellows: BellowsParameters, mesh: Mesh, displacement: np.ndarray) -> OuterGaps:
+    """Air outside: between neighbouring bubbles, and of one bubble to root, tendon and tip."""
     gaps = facing_gaps(mesh, displacement, *_closed(mesh))
     apart = _bubbles_apart(bellows, gaps)
-    # in the notch where a bubble stands on the tendon, facets face each other at any small distance
-    notch = np.linalg.norm(gaps.starts - gaps.ends, axis=1) < bellows.bubble_distance / 2
+    notch = _in_notch(bellows, gaps)
     near = gaps.distances[(apart <= 1) & ~notch]
-    narrowest = float(near.min()) if near.size else None
-    return narrowest, bool((gaps.distances[apart > 1] < 0).any())
+    names = {NEIGHBOURS: apart == 1, OUTER: apart == 0}
+    return OuterGaps(
+        narrowest=float(near.min()) if near.size else None,
+        touching=tuple(
+            name for name, pairs in names.items() if (gaps.distances[pairs & ~notch] <= 0).any()
+        ),
+        overlap=bool((gaps.distances[apart > 1] < 0).any()),
+    )
 
 
 def _inner_gap(bellows: BellowsParameters, mesh: Mesh, displacement: np.ndarray) -> float | None:

@@ -7,7 +7,7 @@ kernels.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from importlib.resources.abc import Traversable
 from typing import TYPE_CHECKING, Any
@@ -20,7 +20,7 @@ from bellows_design.analysis.models import HALF, UNIT_CELL, AnalysisModel, choos
 from bellows_design.analysis.whole_actuator import reading
 from bellows_design.benchmark.reference import STORED, Reference, reference_of
 from bellows_design.benchmark.series import Level, Series, Work, finest_of
-from bellows_design.budget import DEFAULT, Budget
+from bellows_design.budget import DEFAULT, LONGEST, Budget
 from bellows_design.design.design import Design
 from bellows_design.design.shipped import load_design
 from bellows_design.errors import DesignError
@@ -71,7 +71,8 @@ def study(
     """Compute ``design`` with each of the ``models`` on up to ``meshes`` meshes.
 
     Without ``meshes`` it is one more than an evaluation of that model uses. A sequence ends early
-    where the next mesh would exceed the ``budget``, or where the load is not reached.
+    where the next mesh would exceed the ``budget``, or where the load is not reached. The time of
+    all meshes together has no limit.
 
     Raises:
         BellowsError: unknown model, number of meshes out of bounds, a geometry the CAD kernel
@@ -80,6 +81,7 @@ def study(
     """
     if meshes is not None and not 1 <= meshes <= MOST_MESHES:
         raise DesignError(f"meshes = {meshes} must lie between 1 and {MOST_MESHES}.")
+    budget = replace(budget, seconds=LONGEST)
     chosen = {model.name: (model, why) for model, why in (choose(design, m) for m in models)}
     described, reference = machine(), reference_of(design, references)
     progress.stage("warm-up, not timed")

@@ -29,6 +29,7 @@ from bellows_design.cli.options import (
     Pressure,
     Printer,
     Settings,
+    TimeLimit,
     Vtu,
     YieldStrength,
 )
@@ -102,11 +103,12 @@ def evaluate(
     settings: Settings = None,
     memory: Memory = None,
     mesh_seconds: MeshSeconds = None,
+    seconds: TimeLimit = None,
     as_json: AsJson = False,
 ) -> None:
     """Compute bending angle and stress under pressure."""
     options = DesignOptions(name, tuple(settings or ()))
-    limits = BudgetOptions(memory, mesh_seconds)
+    limits = BudgetOptions(memory, mesh_seconds, seconds)
     answer(lambda: actions.evaluate(options, model.value, pressure, accuracy, vtu, limits), as_json)
 
 
@@ -117,11 +119,12 @@ def run(
     settings: Settings = None,
     memory: Memory = None,
     mesh_seconds: MeshSeconds = None,
+    seconds: TimeLimit = None,
     as_json: AsJson = False,
 ) -> None:
     """Design, check, evaluate, decide, and export what is approved."""
     options = DesignOptions(name, tuple(settings or ()))
-    limits = BudgetOptions(memory, mesh_seconds)
+    limits = BudgetOptions(memory, mesh_seconds, seconds)
     answer(lambda: actions.run(options, output, limits), as_json)
 
 

@@ -55,6 +55,15 @@ MeshSeconds = Annotated[
     float | None,
     typer.Option(metavar="S", help="Time limit of each mesh, in seconds; without it 120."),
 ]
+TimeLimit = Annotated[
+    float | None,
+    typer.Option(
+        "--seconds",
+        metavar="S",
+        help="Time limit of the evaluation, in seconds; without it 240. It then ends with the "
+        "last good state, and says so.",
+    ),
+]
 Meshes = Annotated[
     int | None,
     typer.Option(metavar="N", help="Meshes of each; without it one more than evaluate uses."),
@@ -94,10 +103,11 @@ class DesignOptions:
 
 @dataclass(frozen=True)
 class BudgetOptions:
-    """Memory (GiB) and seconds for each mesh, as far as they are given."""
+    """Memory (GiB), seconds for each mesh and for all, as far as they are given."""
 
     memory: float | None = None
     mesh_seconds: float | None = None
+    seconds: float | None = None
 
     def budget(self) -> Budget:
         """The limits given, and the usual ones of those that are not. Raises ``DesignError``."""
@@ -106,4 +116,5 @@ class BudgetOptions:
         return Budget(
             DEFAULT.memory if self.memory is None else self.memory,
             DEFAULT.mesh_seconds if self.mesh_seconds is None else self.mesh_seconds,
+            DEFAULT.seconds if self.seconds is None else self.seconds,
         )

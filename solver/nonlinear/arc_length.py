@@ -140,10 +140,15 @@ def _reason_to_end(
     return f"it ends after {steps} steps." if number >= steps else ""
 
 
-def limit_ahead(newton: Newton, state: State, load: float, steps: int) -> Limit | None:
-    """The first limit after a state, if it is within so many steps."""
+def limit_ahead(
+    newton: Newton, state: State, load: float, first_step: float, steps: int
+) -> Limit | None:
+    """The first limit after a state, if it is within so many steps; the first one is of the load.
+
+    Ends without one where the solve's budget is spent.
+    """
     follower = PathFollower.of(newton, LONGEST_STEP)
-    arcs = follower.along(follower.start(state, load, newton.options.smallest_step))
+    arcs = follower.along(follower.start(state, load, first_step))
     return next((limit for _, limit in islice(arcs, steps + 1) if limit), None)
 
 

@@ -52,6 +52,8 @@ def corrected(newton: Newton, guess: State, load: float, row: Row) -> Equilibriu
     """
     state, size = guess, newton.problem.mesh.size
     for iteration in range(1, newton.options.maximum_iterations + 1):
+        if reason := newton.exhausted():
+            return EquilibriumPoint(guess, load, iteration, failure=reason)
         equilibrium, failure = _linearised(newton, state, load)
         if failure:
             return EquilibriumPoint(guess, load, iteration, failure=failure)

@@ -1,4 +1,4 @@
-"""Progress of a solve, for a listener."""
+"""Progress of a solve, for a listener; and states that a caller does not accept."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
+from solver.assembly.state import State
 from solver.nonlinear.checkpoint import Checkpoint
 
 Kind: TypeAlias = Literal["iteration", "step", "refused"]
@@ -23,6 +24,7 @@ class Event:
         iteration: number of corrections in this step so far.
         correction: its largest component at a node, mm.
         checkpoint: of an accepted step on a path from zero, to resume the solve from.
+        spent: fraction of the solve's budget of steps and seconds that is spent, the larger one.
     """
 
     kind: Kind
@@ -31,6 +33,10 @@ class Event:
     iteration: int
     correction: float
     checkpoint: Checkpoint | None = None
+    spent: float = 0.0
 
 
 Listener: TypeAlias = Callable[[Event], None]
+
+Guard: TypeAlias = Callable[[State], str]
+"""Why an equilibrium is not accepted, as text; empty if it is."""

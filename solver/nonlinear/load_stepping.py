@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Sequence
 from dataclasses import astuple, dataclass, replace
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
@@ -13,12 +13,15 @@ from solver.arrays import Reals
 from solver.assembly.state import State
 from solver.errors import SolverError
 from solver.nonlinear.checkpoint import Checkpoint, Effort
-from solver.nonlinear.events import Listener
+from solver.nonlinear.events import Guard, Listener
 from solver.nonlinear.newton import Attempt, Newton
 from solver.nonlinear.options import FIRST_STEP, SolverOptions
 from solver.nonlinear.step_control import Segment, StepControl, follow
 from solver.problem.problem import Problem
-from solver.results.solution import PathPoint, Solution
+from solver.results.solution import PathPoint, Solution, StopKind
+
+if TYPE_CHECKING:
+    from solver.nonlinear.arc_length import Limit
 
 Points: TypeAlias = tuple[PathPoint, ...]
 
@@ -30,6 +33,16 @@ LIMIT_STEPS = 12
 
 SHORT_STEP = 0.03
 """Fraction of the load; a shorter step is solved to the full tolerance."""
+
+UNLOADING = (0.97, 0.9, 0.8, 0.65, 0.5)
+"""Fractions of the load at which the guard is asked again after it refused the whole load."""
+
+BACKING_OFF = (1.0, 0.98, 0.9, 0.7)
+"""Fractions of the load reached at which an equilibrium to the full tolerance is searched."""
+
+RESOLVED_FROM = 0.05
+"""Fraction of the load below which the smallest step is in proportion to the load reached: a limit
+point at a thousandth of the load is found too."""
 
 JUMP_RATIO = 4.0
 """Ratio of actual to predicted displacement beyond which a state lies on another branch."""
@@ -46,6 +59,7 @@ def solve(
     initial: tuple[Reals, Reals] | None = None,
     stops: Sequence[float] = (),
     resume: Checkpoint | None = None,
+    guard: Guard | None = None,
 ) -> Solution:
     """Equilibrium of ``problem`` under ``pressure``, reached from zero load.
 
@@ -68,6 +82,9 @@ def solve(
         resume: a checkpoint that a listener was given on an earlier run of the same problem,
             pressure, options and stops. The path continues from there, with the same bits (unless
             the first run corrected the checkpoint's state once more, to the full tolerance).
+        guard: is asked for every equilibrium whether it is accepted. The path stops before the
+            first that is not, located to the options' ``smallest_step``, for the reason that the
+            guard gives; ``stopped_by`` is then ``guard``.
 
     Returns:
         The last equilibrium found, with the path to it.
@@ -82,11 +99,11 @@ def solve(
     newton = Newton(problem, float(pressure), options or SolverOptions(), listener)
     path = None
     if resume is not None:
-        path = _loaded(newton, loads, *_resumed(newton, resume))
+        path = _loaded(newton, loads, *_resumed(newton, resume), guard)
     elif initial is not None:
-        path = _from_whole_load(newton, newton.kinematics.start(*initial), loads)
+        path = _from_whole_load(newton, newton.kinematics.start(*initial), loads, guard)
     if path is None:
-        path = _loaded(newton, loads, *_from_zero(newton))
+        path = _loaded(newton, loads, *_from_zero(newton), guard)
     return solution_of(newton, path, time.perf_counter() - start)
 
 
@@ -94,13 +111,14 @@ def solve(
 class Path:
     """A load path: its last ``state``, the ``points`` up to it, and why it stopped before the end.
 
-    ``limit``: load of the limit point that stopped it.
+    ``limit``: load of the limit point that stopped it; ``stopped_by``: what kind of reason it was.
     """
 
     state: State
     points: Points
     failure: str = ""
     limit: float | None = None
+    stopped_by: StopKind = ""
 
 
 @dataclass(frozen=True)
@@ -110,6 +128,7 @@ class LoadStepper:
     newton: Newton
     end: float
     before: Points = ()
+    guard: Guard | None = None
 
     def attempt(self, segment: Segment[Attempt], target: float) -> Attempt:
         """One step to a load, counted, and reported if it is rejected."""
@@ -121,10 +140,11 @@ class LoadStepper:
         guess = newton.predicted(reached, load, target)
         attempt = newton.correct(guess, target, tolerance, onward=target != 1.0)
         failure = attempt.failure or _jumped(newton, reached.state, guess, attempt.state)
-        if failure:
+        attempt = guarded(replace(attempt, failure=failure), self.guard)
+        if attempt.failure:
             newton.effort.refused_steps += 1
             newton.notify("refused", target, reached.state, attempt.iterations, np.inf)
-            return replace(attempt, failure=failure)
+            return attempt
         newton.effort.load_steps += 1
         return attempt
 
@@ -140,6 +160,16 @@ class LoadStepper:
         """After two rejections the start may be too inaccurate: it is corrected once more."""
         return _recorrected(self.newton, segment) if refusals == 2 else segment
 
+    def exhausted(self) -> str:
+        """Why no further step may be tried: the solve's budget is spent."""
+        return self.newton.exhausted()
+
+
+def guarded(attempt: Attempt, guard: Guard | None) -> Attempt:
+    """An attempt, failed if ``guard`` does not accept its equilibrium."""
+    reason = "" if attempt.failure or guard is None else guard(attempt.state)
+    return replace(attempt, failure=reason, guarded=True) if reason else attempt
+
 
 def _stops(pressures: Sequence[float], pressure: float) -> tuple[float, ...]:
     """Pressures, or without one fractions of the load, as ascending fractions within (0, 1)."""
@@ -150,9 +180,13 @@ def _stops(pressures: Sequence[float], pressure: float) -> tuple[float, ...]:
     return tuple(load for load in loads if load < 1 - 1e-12)
 
 
-def _from_whole_load(newton: Newton, initial: State, stops: tuple[float, ...]) -> Path | None:
+def _from_whole_load(
+    newton: Newton, initial: State, stops: tuple[float, ...], guard: Guard | None
+) -> Path | None:
     """Newton's method at the whole load, then down through ``stops``; None if that fails."""
-    attempt = newton.correct(initial, 1.0, newton.options.tolerance)
+    attempt = guarded(newton.correct(initial, 1.0, newton.options.tolerance), guard)
+    if attempt.guarded:
+        return _up_to_guard(newton, attempt.state, stops, guard)
     if attempt.failure:
         newton.effort.refused_steps += 1
         newton.notify("refused", 1.0, initial, attempt.iterations, np.inf)
@@ -161,11 +195,27 @@ def _from_whole_load(newton: Newton, initial: State, stops: tuple[float, ...]) -
     points: Points = (newton.point(attempt.state, 1.0, attempt.iterations, newton.system.stable),)
     segment = Segment(attempt, 1.0, 1.0)
     for stop in reversed(stops):
-        segment = _followed(newton, replace(segment, points=()), stop)
+        segment = _followed(newton, replace(segment, points=()), stop, guard=guard)
         if segment.failure:
             return None
         points = (*reversed(segment.points), *points)
     return Path(attempt.state, (newton.point(State.zero(newton.problem), 0.0, 0, True), *points))
+
+
+def _up_to_guard(
+    newton: Newton, state: State, stops: tuple[float, ...], guard: Guard | None
+) -> Path | None:
+    """From the whole load down to an equilibrium that the guard accepts, and up to the last one."""
+    start = newton.point(State.zero(newton.problem), 0.0, 0, True)
+    for load in UNLOADING:
+        found = newton.correct(state, load, newton.options.tolerance, onward=True)
+        if found.failure:
+            return None
+        state = found.state
+        if not guarded(found, guard).failure:
+            point = newton.point(state, load, found.iterations, newton.system.stable)
+            return _loaded(newton, stops, Segment(found, load, SHORT_STEP), (start, point), guard)
+    return None
 
 
 def _from_zero(newton: Newton) -> tuple[Segment[Attempt], Points]:
@@ -194,11 +244,15 @@ def _resumed(newton: Newton, checkpoint: Checkpoint) -> tuple[Segment[Attempt], 
 
 
 def _loaded(
-    newton: Newton, stops: tuple[float, ...], segment: Segment[Attempt], points: Points
+    newton: Newton,
+    stops: tuple[float, ...],
+    segment: Segment[Attempt],
+    points: Points,
+    guard: Guard | None,
 ) -> Path:
     """Load increased from a segment's end through ``stops``; ``points``: the path so far."""
     for stop in (*(stop for stop in stops if stop > segment.position), 1.0):
-        segment = _followed(newton, replace(segment, points=()), stop, points)
+        segment = _followed(newton, replace(segment, points=()), stop, points, guard)
         points += segment.points
         if segment.failure:
             return _stopped(newton, segment, points)
@@ -206,12 +260,19 @@ def _loaded(
 
 
 def _followed(
-    newton: Newton, segment: Segment[Attempt], end: float, before: Points = ()
+    newton: Newton,
+    segment: Segment[Attempt],
+    end: float,
+    before: Points = (),
+    guard: Guard | None = None,
 ) -> Segment[Attempt]:
     """Adaptive load steps to ``end``: predict along the tangent, correct, grow or cut the step."""
-    options = newton.options
-    control = StepControl(options.growth, options.cut, options.smallest_step)
-    return follow(LoadStepper(newton, end, before), segment, end, control)
+    stepper = LoadStepper(newton, end, before, guard)
+    return follow(stepper, segment, end, _control(newton.options))
+
+
+def _control(options: SolverOptions) -> StepControl:
+    return StepControl(options.growth, options.cut, options.smallest_step, RESOLVED_FROM)
 
 
 def _stopped(newton: Newton, segment: Segment[Attempt], points: Points) -> Path:
@@ -219,17 +280,46 @@ def _stopped(newton: Newton, segment: Segment[Attempt], points: Points) -> Path:
 
     Its last state may fulfil the loose tolerance only: it is corrected once more.
     """
+    kind, load = _stop_kind(newton, segment), segment.position
+    with newton.beyond_budget():
+        state, load, points = _last_equilibrium(newton, segment.reached.state, load, points)
+    limit = _limit_near(newton, state, load) if kind == "step" else None
+    if limit is None:
+        return Path(state, points, segment.failure, stopped_by=kind)
+    return Path(state, points, limit.describe(newton.pressure), limit.point.load, "limit")
+
+
+def _last_equilibrium(
+    newton: Newton, state: State, load: float, points: Points
+) -> tuple[State, float, Points]:
+    """A path's end to the full tolerance; at a lower load where that is not met at ``load``."""
+    for lower in (share * load for share in BACKING_OFF):
+        found = newton.correct(state, lower, newton.options.tolerance)
+        if found.failure:
+            continue
+        if lower == load:
+            return found.state, load, _corrected(newton, found, load, points)
+        before = tuple(point for point in points if point.load < lower)
+        point = newton.point(found.state, lower, found.iterations, newton.system.stable)
+        return found.state, lower, (*before, point)
+    return State.zero(newton.problem), 0.0, points[:1]
+
+
+def _stop_kind(newton: Newton, segment: Segment[Attempt]) -> StopKind:
+    """What stopped a path: its budget, the guard, or that no step succeeds."""
+    if newton.exhausted():
+        return "budget"
+    return "guard" if segment.refused is not None and segment.refused.guarded else "step"
+
+
+def _limit_near(newton: Newton, state: State, load: float) -> Limit | None:
+    """The limit point that explains why no step from a state succeeds, if there is one."""
     from solver.nonlinear.arc_length import limit_ahead
 
-    load = segment.position
-    last = newton.correct(segment.reached.state, load, newton.options.tolerance)
-    if last.failure:  # the loose tolerance was met, the full one is not
-        return Path(State.zero(newton.problem), points[:1], segment.failure)
-    state, points = last.state, _corrected(newton, last, load, points)
-    limit = limit_ahead(newton, state, load, LIMIT_STEPS)
-    if limit is None or not -1e-6 <= limit.point.load - load <= LIMIT_DISTANCE * load:
-        return Path(state, points, segment.failure)
-    return Path(state, points, limit.describe(newton.pressure), limit.point.load)
+    step = _control(newton.options).smallest_at(load)
+    limit = limit_ahead(newton, state, load, step, LIMIT_STEPS)
+    near = limit is not None and -1e-6 * load <= limit.point.load - load <= LIMIT_DISTANCE * load
+    return limit if near else None
 
 
 def _recorrected(newton: Newton, segment: Segment[Attempt]) -> Segment[Attempt]:
@@ -294,6 +384,7 @@ def solution_of(newton: Newton, path: Path, seconds: float) -> Solution:
         plane=(float(path.state.plane[0]), float(path.state.plane[1])),
         load=end.load,
         limit=limit if limit is None or not newton.pressure else limit * newton.pressure,
+        stopped_by=path.stopped_by,
     )
 
 

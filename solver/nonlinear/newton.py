@@ -13,6 +13,9 @@ without. It does not help cells with a moving plane, short and thick, and is not
 
 from __future__ import annotations
 
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -70,7 +73,7 @@ class Attempt:
 
     ``imbalance``: the residual left there, relative to that of the load alone. ``direction``: the
     equilibrium's derivative with respect to the load, if requested. ``touched``: whether there was
-    contact in any iteration.
+    contact in any iteration. ``guarded``: it is an equilibrium that the caller does not accept.
     """
 
     state: State
@@ -79,6 +82,7 @@ class Attempt:
     imbalance: float = 0.0
     direction: State | None = None
     touched: bool = False
+    guarded: bool = False
 
 
 @dataclass
@@ -106,11 +110,38 @@ class Newton:
         self.slender = self.problem.axis is not None and self.assembly.plane is None
         self.trusted = trusted_nodes(self.problem)
         self.loose_tolerance = min(self.options.loose_tolerance, EDGE_SHARE * mesh.edge / mesh.size)
+        self.began = time.monotonic()
+        self.limited = True
+
+    @contextmanager
+    def beyond_budget(self) -> Iterator[None]:
+        """Within the block the budget does not count: what was reached is brought to an end."""
+        self.limited = False
+        try:
+            yield
+        finally:
+            self.limited = True
+
+    def spent(self) -> float:
+        """Fraction of the solve's budget of steps or of seconds that is spent, the larger one."""
+        steps = self.effort.load_steps + self.effort.refused_steps
+        seconds = time.monotonic() - self.began
+        return max(steps / self.options.maximum_steps, seconds / self.options.seconds)
+
+    def exhausted(self) -> str:
+        """Which part of the budget is spent, as text; empty while something is left."""
+        if not self.limited or self.spent() < 1:
+            return ""
+        steps = self.effort.load_steps + self.effort.refused_steps
+        if steps >= self.options.maximum_steps:
+            return f"the budget of {self.options.maximum_steps} steps is spent"
+        return f"the budget of {self.options.seconds:.3g} s is spent"
 
     def correct(self, guess: State, load: float, tolerance: float, onward: bool = False) -> Attempt:
         """Equilibrium at a fixed load from ``guess``; with contact, if need be in two stages.
 
-        ``onward``: with the direction in which the path continues.
+        ``onward``: with the direction in which the path continues. Ends without one where the
+        solve's budget is spent.
         """
         attempt = self.iterate(guess, load, tolerance, onward)
         if not attempt.failure or not attempt.touched:
@@ -132,6 +163,8 @@ class Newton:
         reuse = own = touched = False
         iteration = 0
         while iteration < self.options.maximum_iterations * (2 if touched else 1):
+            if iteration and (reason := self.exhausted()):
+                return Attempt(guess, iteration, reason, touched=touched)
             iteration += 1
             own = own if reuse else not len(state.geometric_stress)
             try:
@@ -289,4 +322,5 @@ class Newton:
         """Call the listener with an event."""
         if self.listener is not None:
             rotation = self.kinematics.rotation(state)
-            self.listener(Event(kind, load, rotation, iteration, correction, checkpoint))
+            spent = self.spent()
+            self.listener(Event(kind, load, rotation, iteration, correction, checkpoint, spent))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 from solver.errors import SolverError
@@ -29,6 +30,8 @@ class SolverOptions:
         reuse: at the whole load a factorization is used again after a correction that was smaller
             than the one before by this factor; 0 for never.
         linear_solver: "auto", or the name of one.
+        maximum_steps: accepted and rejected steps of a path together; it stops after so many.
+        seconds: time limit of a solve, s; by default none.
 
     Raises:
         SolverError: a number out of its bounds.
@@ -43,6 +46,8 @@ class SolverOptions:
     loose_tolerance: float = 5e-3
     reuse: float = 0.25
     linear_solver: str = "auto"
+    maximum_steps: int = 500
+    seconds: float = math.inf
 
     def __post_init__(self) -> None:
         for name, low, high in OPTION_BOUNDS:
@@ -64,4 +69,6 @@ OPTION_BOUNDS = (
     ("tolerance", 0, 0.1),
     ("loose_tolerance", 0, 0.1),
     ("reuse", -1, 0.9),
+    ("maximum_steps", 0, 1_000_000),
+    ("seconds", 0, math.inf),
 )

@@ -28,7 +28,8 @@ class Segment(Generic[Found]):
     """A part of a path.
 
     ``reached``: the equilibrium at its end, ``position``: the load or volume there, ``step``:
-    length of the next step, ``points``: those on it without its start, ``failure``: why it stopped.
+    length of the next step, ``points``: those on it without its start, ``failure``: why it stopped,
+    ``refused``: the step that failed last.
     """
 
     reached: Found
@@ -36,6 +37,7 @@ class Segment(Generic[Found]):
     step: float
     points: tuple[PathPoint, ...] = ()
     failure: str = ""
+    refused: Found | None = None
 
 
 class Stepper(Protocol[Found]):
@@ -50,17 +52,32 @@ class Stepper(Protocol[Found]):
     def refused(self, segment: Segment[Found], refusals: int) -> Segment[Found]:
         """The segment to try a shorter step from, after so many failures at its end."""
 
+    def exhausted(self) -> str:
+        """Why no further step may be tried; empty if one may."""
+
 
 @dataclass(frozen=True)
 class StepControl:
     """After a success a step may grow by ``growth``; after a failure it is ``cut`` times as long.
 
-    The path stops where a step would be shorter than ``smallest``.
+    The path stops where a step would be shorter than ``smallest``; that is less by as much as the
+    position is below ``scale``, so that a path which ends far below its goal is resolved too.
     """
 
     growth: float
     cut: float
     smallest: float
+    scale: float = 0.0
+
+    def smallest_at(self, position: float) -> float:
+        """Shortest step from there."""
+        if not self.scale:
+            return self.smallest
+        return self.smallest * min(1.0, max(abs(position) / self.scale, LEAST_SCALE))
+
+
+LEAST_SCALE = 1e-6
+"""A path that ends at less than this fraction of its ``scale`` is not resolved."""
 
 
 def follow(
@@ -69,6 +86,8 @@ def follow(
     """Steps from a segment's end up or down to ``end``, as far as they succeed."""
     refusals = 0
     while segment.position != end:
+        if reason := stepper.exhausted():
+            return replace(segment, failure=reason)
         target = _next_position(segment.position, end, segment.step)
         taken = abs(target - segment.position)
         found = stepper.attempt(segment, target)
@@ -77,8 +96,8 @@ def follow(
             segment = stepper.accepted(Segment(found, target, step, segment.points))
             refusals = 0
             continue
-        segment = replace(segment, step=control.cut * taken)
-        if segment.step < control.smallest:
+        segment = replace(segment, step=control.cut * taken, refused=found)
+        if segment.step < control.smallest_at(segment.position):
             return replace(segment, failure=found.failure)
         refusals += 1
         segment = stepper.refused(segment, refusals)

@@ -121,6 +121,10 @@ class VolumeStepper:
         """The segment unchanged."""
         return segment
 
+    def exhausted(self) -> str:
+        """Why no further step may be tried: the solve's budget is spent."""
+        return self.newton.exhausted()
+
 
 def _step(newton: Newton, here: EquilibriumPoint, volume: float, wanted: float) -> EquilibriumPoint:
     """From an equilibrium to the one with the ``wanted`` volume.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal, TypeAlias
 
 import numpy as np
 
@@ -11,6 +12,10 @@ from solver.assembly.pressure import enclosed_volume
 from solver.assembly.state import State
 from solver.mesh.mesh import Mesh
 from solver.problem.problem import Problem
+
+StopKind: TypeAlias = Literal["", "step", "limit", "guard", "budget"]
+"""What ended a path before the whole load: no step succeeds, a limit point or bifurcation, a state
+that the caller's guard does not accept, or a spent budget; empty at the whole load."""
 
 
 @dataclass(frozen=True)
@@ -65,6 +70,7 @@ class Solution:
         load: fraction of the whole load.
         limit: pressure at the limit point that ended the path, MPa (fraction of the load where
             there is no pressure); None without one.
+        stopped_by: what ended the path; empty if ``converged``.
     """
 
     problem: Problem
@@ -84,6 +90,7 @@ class Solution:
     plane: tuple[float, float] = (0.0, 0.0)
     load: float = 1.0
     limit: float | None = None
+    stopped_by: StopKind = ""
 
     @property
     def stable(self) -> bool | None:

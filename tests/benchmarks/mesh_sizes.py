@@ -19,7 +19,7 @@ from bellows_design.budget import Budget
 from bellows_design.design.overrides import with_overrides
 from bellows_design.design.shipped import load_design, shipped_designs
 
-AMPLE = Budget(memory=100.0, mesh_seconds=3600.0)
+AMPLE = Budget(memory=100.0, mesh_seconds=3600.0, seconds=86_400.0)
 EXTREME = {
     "thin walls": ("bubble_thickness=0.8", "tendon_thickness=0.8"),
     "thin tendon": ("tendon_thickness=0.5",),

@@ -37,7 +37,7 @@ CELL_ELEMENTS, HALF_ELEMENTS = 15_000, 80_000
 PATIENCE = 9
 """Meshes after which refinement ends at the latest."""
 
-AMPLE = Budget(memory=1000.0, mesh_seconds=3600.0)
+AMPLE = Budget(memory=1000.0, mesh_seconds=3600.0, seconds=86_400.0)
 
 
 def designs() -> dict[str, Design]:
