@@ -101,17 +101,18 @@ def decide(design: Design, report: PrintabilityReport, state: LoadedState) -> Ve
 
 def open_question(design: Design, report: PrintabilityReport, state: LoadedState) -> str:
     """What a finer mesh may decide, as text; empty if nothing."""
-    verdict = decide(design, report, state)
-    if not verdict.undecided or not state.converged or _beyond_resolution(design, state):
+    estimated = state.error_estimate.max_von_mises_percent is not None
+    if not estimated or not decide(design, report, state).undecided:
         return ""
     limit, stress = design.max_von_mises, state.max_von_mises_mpa
+    if _beyond_resolution(stress, limit):
+        return ""
     return f"{stress:.3f} MPa are too near to the limit of {limit:g} MPa for their estimated error"
 
 
-def _beyond_resolution(design: Design, state: LoadedState) -> bool:
-    """True if the stress is nearer to its limit than any mesh can tell."""
-    stress = state.max_von_mises_mpa
-    return abs(stress - design.max_von_mises) <= LEAST_STRESS_ERROR * stress
+def _beyond_resolution(stress: float, limit: float) -> bool:
+    """True if a stress is nearer to its limit than any mesh can tell."""
+    return abs(stress - limit) <= LEAST_STRESS_ERROR * stress
 
 
 def _not_judged(design: Design, state: LoadedState) -> tuple[NotJudged, ...]:
@@ -181,7 +182,7 @@ def _strain_reasons(strain: ReachedStrain) -> tuple[Reason, ...]:
 
 def _remedy(stress: float, limit: float) -> str:
     """What helps where the error reaches across the limit."""
-    if abs(stress - limit) <= LEAST_STRESS_ERROR * stress:
+    if _beyond_resolution(stress, limit):
         least = 100 * LEAST_STRESS_ERROR
         return f"nearer than the {least:g} % that no mesh resolves; change the design or the load"
     return "refine the mesh"
@@ -190,7 +191,10 @@ def _remedy(stress: float, limit: float) -> str:
 def _stress_reasons(limit: float, state: LoadedState) -> tuple[Reason, ...]:
     stress, percent = state.max_von_mises_mpa, state.error_estimate.max_von_mises_percent
     if not math.isfinite(stress) or percent is None or not math.isfinite(percent):
-        message = f"The highest von Mises stress, {stress:.3f} MPa, has no error estimate."
+        message = (
+            f"The highest von Mises stress, {stress:.3f} MPa, has no error estimate: there was no "
+            "second mesh within the budget of memory and time."
+        )
         return (Reason("accuracy", "max_von_mises", stress, limit, "MPa", message),)
     error = stress * abs(percent) / 100
     if stress + error <= limit:

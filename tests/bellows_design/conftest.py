@@ -44,7 +44,7 @@ def stub_stages(monkeypatch: pytest.MonkeyPatch, cube_part: Part) -> Callable[..
             pressures: Sequence[float] = (),
             progress: Progress = SILENCE,
             budget: Budget = DEFAULT,
-            refine_while: Any = None,
+            open_question: Any = None,
         ) -> Any:
             progress.stage("solve")
             if isinstance(evaluation, BaseException):

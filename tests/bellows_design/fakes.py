@@ -34,6 +34,7 @@ class FakeContact:
     inner_gap_mm: float | None = None
     where: tuple[str, ...] = ()
     note: str = ""
+    void: bool = False
 
 
 MESHES = (MeshReading(MeshSize(1, 10, 34), Reading(0.1, 400.0, 3.0, 1000.0)),)
@@ -51,6 +52,7 @@ class FakeEvaluation(Evaluation):
     stable: bool | None = True
     pressure_mpa: float = 0.1
     limit_pressure_mpa: float | None = None
+    touch_pressure_mpa: float | None = None
     bending_angle_deg: float = 400.0
     max_von_mises_mpa: float = 3.0
     max_von_mises_position_mm: tuple[float, float, float] = (1.0, 2.0, 3.0)

@@ -6,9 +6,9 @@ import math
 from dataclasses import replace
 
 import pytest
-from fakes import FakeEstimate, FakeEvaluation, FakeStrain, fake_report
+from fakes import FakeContact, FakeEstimate, FakeEvaluation, FakeStrain, fake_report
 
-from bellows_design.approval import REQUIRED_RULES, decide
+from bellows_design.approval import REQUIRED_RULES, NotJudged, decide, open_question
 from bellows_design.design.overrides import with_overrides
 from bellows_design.design.shipped import load_design
 from printers import PrintabilityReport, RuleResult
@@ -87,6 +87,70 @@ def test_a_load_that_was_not_reached_refuses(found: FakeEvaluation) -> None:
     assert [reason.kind for reason in verdict.reasons] == ["convergence"]
     assert "of 0.1 MPa" in verdict.reasons[0].message
     assert found.message in verdict.reasons[0].message
+
+
+def test_walls_that_run_through_each_other_refuse_whatever_the_numbers_say() -> None:
+    """The load was reached, and the stress keeps its limit: of a shape that cannot be."""
+    void = replace(GOOD, contact=FakeContact(detected=True, where=("inner walls",), void=True))
+    (reason,) = decide(DESIGN, fake_report(), void).reasons
+    assert reason.kind == reason.rule == "contact"
+    assert reason.message.startswith("Inner walls touch at 0.1 MPa")
+
+
+def test_a_first_touch_names_the_pressure_up_to_which_the_design_may_be_judged() -> None:
+    message = "stopped at 0.04 of 0.1 MPa: outer walls touch, and this model lets them."
+    touched = replace(
+        GOOD, converged=False, pressure_mpa=0.04, touch_pressure_mpa=0.04, message=message
+    )
+    verdict = decide(DESIGN, fake_report(), touched)
+    (reason,) = verdict.reasons
+    assert (reason.kind, reason.measured, reason.required) == ("contact", 0.04, 0.1)
+    assert reason.message == (
+        "Stopped at 0.04 of 0.1 MPa: outer walls touch, and this model lets them. "
+        "The design may be judged at pressures up to 0.04 MPa."
+    )
+    assert not verdict.undecided
+
+
+def test_rules_without_data_are_listed_as_not_judged() -> None:
+    """A rule that vanishes reads like a pass."""
+    silent = FakeStrain(elongation_at_break=None, valid=None)
+    verdict = decide(DESIGN, fake_report(), replace(GOOD, strain=silent, stable=None))
+    name = DESIGN.material.name
+    assert verdict.approved and verdict.not_judged == (
+        NotJudged("elongation_at_break", f"the material {name} states no elongation at break"),
+        NotJudged("tested_strain", f"the material {name} does not state the strains of its tests"),
+        NotJudged("stability", "the linear solver cannot tell whether an equilibrium is stable"),
+    )
+    assert [rule["rule"] for rule in verdict.to_dict()["not_judged"]] == [
+        "elongation_at_break", "tested_strain", "stability",
+    ]  # fmt: skip
+    told = replace(GOOD, strain=FakeStrain(valid=(-0.5, 1.0)))
+    assert decide(DESIGN, fake_report(), told).not_judged == ()
+
+
+@pytest.mark.parametrize(
+    ("stress", "percent", "open_"),
+    [
+        (3.5, 20.0, True),
+        (3.95, 5.0, False),  # nearer to 4 MPa than the 2 % that no mesh resolves
+        (4.05, 5.0, False),
+        (3.5, 1.0, False),  # decided
+        (4.5, 1.0, False),
+        (3.5, None, False),  # nothing to refine by
+    ],
+)
+def test_a_finer_mesh_is_asked_for_only_where_it_can_decide(
+    stress: float, percent: float | None, open_: bool
+) -> None:
+    found = replace(GOOD, max_von_mises_mpa=stress, error_estimate=FakeEstimate(percent))
+    assert bool(open_question(DESIGN, fake_report(), found)) is open_
+
+
+def test_a_stress_that_no_mesh_can_tell_from_its_limit_is_told_so() -> None:
+    near = replace(GOOD, max_von_mises_mpa=3.95, error_estimate=FakeEstimate(5.0))
+    (reason,) = decide(DESIGN, fake_report(), near).reasons
+    assert reason.kind == "accuracy" and "2 % that no mesh resolves" in reason.message
 
 
 def test_strain_beyond_the_elongation_at_break_refuses() -> None:

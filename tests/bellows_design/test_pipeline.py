@@ -51,16 +51,17 @@ def test_an_open_verdict_asks_for_a_finer_mesh_and_is_decided_again(
 ) -> None:
     finer = FakeEvaluation(max_von_mises_mpa=3.8, error_estimate=FakeEstimate(1.0))
     coarse = replace(finer, error_estimate=FakeEstimate(20.0))
-    asked: list[bool] = []
+    asked: list[str] = []
 
-    def evaluate(*_: Any, refine_while: Callable[..., bool], **__: Any) -> FakeEvaluation:
-        asked.extend(refine_while(state) for state in (coarse, finer))
+    def evaluate(*_: Any, open_question: Callable[..., str], **__: Any) -> FakeEvaluation:
+        asked.extend(open_question(state) for state in (coarse, finer))
         return finer if asked[0] else coarse
 
     stub_stages(finer)
     monkeypatch.setattr("bellows_design.analysis.evaluate.evaluate", evaluate)
     assert run(load_design("prototype_2"), tmp_path).verdict.approved
-    assert asked == [True, False]
+    question = "3.800 MPa are too near to the limit of 4 MPa for their estimated error"
+    assert asked == [question, ""]
 
 
 @pytest.mark.slow

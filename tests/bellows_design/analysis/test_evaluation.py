@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from bellows_design import DesignError, load_design, with_overrides
-from bellows_design.analysis import wall_contact
-from bellows_design.analysis.evaluate import evaluate, evaluation_of, write_vtu
+from bellows_design.analysis import mesh_sequence, wall_contact
+from bellows_design.analysis.evaluate import _promising, evaluate, evaluation_of, write_vtu
 from bellows_design.analysis.evaluation import Evaluation, LoadedState
 from bellows_design.analysis.mesh_plan import first_plan
 from bellows_design.analysis.mesh_sequence import affordable_plan, next_plan, refined
@@ -178,20 +178,58 @@ def test_accuracy_refines_until_the_estimate_keeps_it_or_the_memory_is_used_up()
     assert further.elements > fine.mesh.elements
 
 
-def test_refinement_goes_on_while_the_state_asks_for_it_and_looks_for_contact_once(
+def test_refinement_goes_on_while_the_state_leaves_a_question_open(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    surveys = []
-    monkeypatch.setattr(
-        wall_contact, "contact_of", lambda *given: surveys.append(given) or NO_CONTACT
-    )
+    monkeypatch.setattr(wall_contact, "contact_of", lambda *_: NO_CONTACT)
     single = short("number_of_bubbles=1", "length=11.5", "load.pressure=0.01")
     states: list[LoadedState] = []
-    finer = evaluate(single, refine_while=lambda state: states.append(state) or len(states) < 2)
-    assert len(finer.meshes) == HALF.levels + 1 and len(surveys) == 1
+    finer = evaluate(
+        single,
+        open_question=lambda state: states.append(state) or ("near" if len(states) < 2 else ""),
+    )
+    assert len(finer.meshes) == HALF.levels + 1
     first, last = states
     assert first.max_von_mises_mpa == finer.meshes[-2].reading.max_von_mises_mpa
     assert last == LoadedState(**{name: getattr(finer, name) for name in vars(last)})
+
+
+@pytest.mark.parametrize(
+    ("estimates", "promising"),
+    [
+        ([20.0], True),
+        ([20.0, 12.0, 7.0], True),
+        ([5.0, 6.0], True),  # one mesh may be worse by chance
+        ([5.0, 6.0, 5.9], False),
+        ([5.0, 4.9, 4.8], False),
+        ([16.0, 8.0, 4.0, 2.0, 1.0], False),  # each mesh takes twice as long as the last
+        ([None], False),
+    ],
+)
+def test_refinement_ends_where_it_does_not_help(
+    estimates: list[float | None], promising: bool
+) -> None:
+    assert _promising(estimates) is promising
+
+
+def test_no_mesh_is_begun_that_would_exceed_the_time_left(evaluation: Evaluation) -> None:
+    spent = evaluation.computation.seconds.total
+    computation = replace(evaluation.computation, budget=Budget(seconds=spent + 1e-3))
+    assert affordable_plan(computation) is None
+    assert affordable_plan(evaluation.computation) is not None
+
+
+def test_a_finer_mesh_that_takes_too_long_leaves_the_coarser_result(
+    evaluation: Evaluation, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    before = evaluation.computation
+    ended = replace(before.finest, converged=False, stopped_by="budget", message="no time.")
+    monkeypatch.setattr(mesh_sequence, "_solved_on", lambda *_: ended)
+    after = refined(before)
+    assert after.converged and after.solutions == before.solutions
+    assert after.seconds.total > before.seconds.total
+    alone = refined(replace(before, solved=()))  # a first mesh has nothing to fall back on
+    assert not alone.converged and alone.message == "no time."
 
 
 @pytest.mark.parametrize(

@@ -3,20 +3,26 @@
 from __future__ import annotations
 
 from dataclasses import asdict, replace
+from typing import Any
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from bellows_design.analysis import mesh_sequence
 from bellows_design.analysis.cell_chain import chain
-from bellows_design.analysis.evaluate import evaluate
+from bellows_design.analysis.computation import Computation
+from bellows_design.analysis.evaluate import evaluate, loaded_state
 from bellows_design.analysis.mesh_plan import first_plan
+from bellows_design.analysis.mesh_sequence import started
 from bellows_design.analysis.models import FREE_CELL, HALF, UNIT_CELL, shortened
 from bellows_design.analysis.wall_contact import (
     FREE_ENDS,
     INSIDE,
     ITSELF,
     NEIGHBOURS,
+    OUTER,
+    OVERLAP,
     UNMODELLED,
     WallContact,
     contact_in_cell,
@@ -246,3 +252,68 @@ def test_before_walls_touch_two_free_half_bubbles_turn_like_the_short_actuator()
     free = FREE_CELL.problem(design, first_plan(UNIT_CELL.solid(design), design).made())
     of_short, of_free = (solve(each, -0.01).path[-1].rotation for each in (ends, free))
     assert 2 * of_free == pytest.approx(of_short, rel=0.12)
+
+
+ONE_BUBBLE = [
+    "number_of_bubbles=1", "length=13", "bubble_thickness=1.2", "tendon_thickness=1.2",
+    "outer_fillet=1.2", "inner_fillet=0.4",
+]  # fmt: skip
+
+
+def test_a_half_under_vacuum_ends_at_the_first_touch_of_its_walls() -> None:
+    """A single bubble has no neighbour; beyond the touch its walls would pass each other."""
+    design = with_overrides(load_design("prototype_1"), [*ONE_BUBBLE, "load.pressure=-0.09"])
+    computation = started(design, HALF, "")
+    found = loaded_state(computation)
+    touch = found.touch_pressure_mpa
+    assert not found.converged and touch is not None and -0.09 < touch < 0
+    assert found.message.endswith("inner walls touch, and this model does not keep them apart.")
+    assert not found.contact.detected and found.contact.inner_gap_mm is not None
+    assert found.contact.inner_gap_mm < 0.05 * design.bellows.chamber_length
+    gentle = with_overrides(design, [f"load.pressure={0.98 * touch:.6f}"])
+    assert started(gentle, HALF, "").converged
+    beyond = with_overrides(design, [f"load.pressure={1.05 * touch:.6f}"])
+    problem = HALF.problem(design, computation.finest.problem.mesh)
+    crossed = solve(problem, beyond.load.pressure, SolverOptions(tolerance=1e-4))
+    assert contact_of(design.bellows, problem.mesh, crossed.displacement).void
+
+
+def test_a_single_bubble_that_leans_onto_its_tendon_touches_no_neighbour() -> None:
+    design = shortened(Design(name="one", bellows=BELLOWS))
+    bellows = design.bellows
+    mesh = first_plan(HALF.solid(design), design).made()
+    front = bellows.bubble_middles[0] + bellows.bubble_length / 2
+    x, _, z = mesh.nodes.T
+    raised = np.clip(z - bellows.tendon_height, 0, None)
+    sheared = np.column_stack([0.3 * raised * (x > front - 1.0), 0 * x, -1.1 * raised])
+    found = contact_of(bellows, mesh, sheared)
+    assert NEIGHBOURS not in found.where and OUTER in found.where
+
+
+def test_distant_parts_that_overlap_are_a_warning_and_void_nothing(problem: Problem) -> None:
+    found = contact(problem, rolled(problem, 1.2))
+    assert not found.void and found.warnings == (f"{OVERLAP}.",)
+    through = contact(problem, compressed(problem, 2))
+    assert through.void and through.warnings[0] == f"{UNMODELLED}."
+
+
+def test_the_ends_of_a_cell_whose_inner_walls_touch_only_there_are_half_bubbles(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """The short actuator stops at the touch; the cell without a neighbour goes on."""
+    design = with_overrides(load_design("prototype_1"), ["number_of_bubbles=4", "length=40"])
+    plain = started(design, UNIT_CELL, "")
+    assert plain.ends is not None and plain.ends.problem.moving_plane is None
+    usual = mesh_sequence._with_short_actuator
+
+    def touching(*given: Any) -> Computation:
+        found = usual(*given)
+        assert found.ends is not None
+        ends = replace(found.ends, converged=False, stopped_by="guard")
+        return replace(found, ends=ends)
+
+    monkeypatch.setattr(mesh_sequence, "_with_short_actuator", touching)
+    monkeypatch.setattr(mesh_sequence, "_stopped_inside", lambda _: True)
+    freed = started(design, UNIT_CELL, "")
+    assert freed.converged and freed.ends is not None
+    assert freed.ends.problem.moving_plane is not None
