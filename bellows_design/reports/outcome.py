@@ -12,6 +12,7 @@ from bellows_design.reports.check import check_table
 from bellows_design.reports.evaluation import evaluation_table
 
 if TYPE_CHECKING:
+    from bellows_design.approval import Verdict
     from bellows_design.pipeline import Outcome
 
 
@@ -25,6 +26,15 @@ def outcome_table(outcome: Outcome) -> Sequence[RenderableType]:
 
 
 def _verdict(outcome: Outcome) -> list[RenderableType]:
+    return [*_not_judged(outcome.verdict), *_decision(outcome)]
+
+
+def _not_judged(verdict: Verdict) -> list[RenderableType]:
+    """What the verdict says nothing about."""
+    return [Text(f"not judged: {rule.rule}, as {rule.why}") for rule in verdict.not_judged]
+
+
+def _decision(outcome: Outcome) -> list[RenderableType]:
     if outcome.verdict.approved:
         return [Text(f"APPROVED: {outcome.folder}", style="bold green")]
     lines: list[RenderableType] = [Text(f"REFUSED: {outcome.design.name}", style="bold red")]

@@ -28,7 +28,7 @@ Points: TypeAlias = tuple[PathPoint, ...]
 LIMIT_DISTANCE = 0.05
 """Largest distance of a limit point that explains a stop, as a fraction of the load reached."""
 
-LIMIT_STEPS = 12
+LIMIT_STEPS = 24
 """Most steps by arc length in search of that limit point."""
 
 SHORT_STEP = 0.03
@@ -40,7 +40,7 @@ UNLOADING = (0.97, 0.9, 0.8, 0.65, 0.5)
 BACKING_OFF = (1.0, 0.98, 0.9, 0.7)
 """Fractions of the load reached at which an equilibrium to the full tolerance is searched."""
 
-RESOLVED_FROM = 0.05
+RESOLVED_FROM = 0.2
 """Fraction of the load below which the smallest step is in proportion to the load reached: a limit
 point at a thousandth of the load is found too."""
 
