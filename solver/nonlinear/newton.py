@@ -124,9 +124,10 @@ class Newton:
 
     def spent(self) -> float:
         """Fraction of the solve's budget of steps or of seconds that is spent, the larger one."""
-        steps = self.effort.load_steps + self.effort.refused_steps
-        seconds = time.monotonic() - self.began
-        return max(steps / self.options.maximum_steps, seconds / self.options.seconds)
+        options = self.options
+        steps = (self.effort.load_steps + self.effort.refused_steps) / options.maximum_steps
+        seconds = (time.monotonic() - self.began) / options.seconds if options.seconds else 0.0
+        return max(steps, seconds)
 
     def exhausted(self) -> str:
         """Which part of the budget is spent, as text; empty while something is left."""

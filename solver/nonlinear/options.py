@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 from solver.errors import SolverError
@@ -47,18 +46,20 @@ class SolverOptions:
     reuse: float = 0.25
     linear_solver: str = "auto"
     maximum_steps: int = 500
-    seconds: float = math.inf
+    seconds: float | None = None
 
     def __post_init__(self) -> None:
         for name, low, high in OPTION_BOUNDS:
             value = getattr(self, name)
-            if name == "first_step" and value is None:
+            if name in MAY_BE_MISSING and value is None:
                 continue
             if value is None or not low < value <= high:
                 raise SolverError(
                     f"solver: {name} must be above {low} and at most {high}, got {value}."
                 )
 
+
+MAY_BE_MISSING = ("first_step", "seconds")
 
 OPTION_BOUNDS = (
     ("first_step", 0, 1),
@@ -70,5 +71,5 @@ OPTION_BOUNDS = (
     ("loose_tolerance", 0, 0.1),
     ("reuse", -1, 0.9),
     ("maximum_steps", 0, 1_000_000),
-    ("seconds", 0, math.inf),
+    ("seconds", 0, 1e8),
 )
