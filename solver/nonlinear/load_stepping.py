@@ -283,7 +283,7 @@ def _stopped(newton: Newton, segment: Segment[Attempt], points: Points) -> Path:
     kind, load = _stop_kind(newton, segment), segment.position
     with newton.beyond_budget():
         state, load, points = _last_equilibrium(newton, segment.reached.state, load, points)
-    limit = _limit_near(newton, state, load) if kind == "step" else None
+    limit = _limit_near(newton, state, load) if kind == "step" and load else None
     if limit is None:
         return Path(state, points, segment.failure, stopped_by=kind)
     return Path(state, points, limit.describe(newton.pressure), limit.point.load, "limit")
