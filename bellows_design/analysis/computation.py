@@ -56,7 +56,8 @@ class Computation:
 
     ``solved`` holds the meshes, the finest last; ``ends`` the solution of a short actuator of one
     bubble, or of a bubble without neighbours, on the unit cell's coarsest mesh size; ``pressures``
-    (MPa) those asked for besides the design's; ``reason`` why this model was chosen.
+    (MPa) those asked for besides the design's; ``reason`` why this model was chosen; ``ends_peak``
+    the highest von Mises Cauchy stress in the ends.
     """
 
     design: Design
@@ -67,6 +68,7 @@ class Computation:
     budget: Budget = DEFAULT
     solved: tuple[SolvedMesh, ...] = ()
     ends: Solution | None = None
+    ends_peak: Peak | None = None
     seconds: Seconds = Seconds()
 
     @property

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from bellows_design.analysis.computation import Computation
-from bellows_design.analysis.whole_actuator import added_by_ends, reading
+from bellows_design.analysis.whole_actuator import ENDS_NOISE, added_by_ends, ends_factor, reading
 
 LEAST_ANGLE_ERROR, LEAST_STRESS_ERROR = 0.005, 0.02
 """Fractions of angle and stress that no estimate falls below: two meshes can agree by chance, and
@@ -19,6 +19,9 @@ REACH_ERROR, FREE_REACH_ERROR = 0.06, 0.10
 """Fractions of a bubble's rotation by which the ends may act on more than the bubble beside them,
 and the same where half bubbles without stubs stand for them. Against half models of three bubbles
 the first was 0.02 to 0.18 off."""
+
+ENDS_STRESS_ERROR = ENDS_NOISE - 1
+"""Fraction of the highest stress that is uncertain where that is in the ends, on a coarse mesh."""
 
 TWO_MESHES = 2.0
 """Factor on the angle's error as long as there are only two meshes: the first is very coarse."""
@@ -68,7 +71,10 @@ def _stress_error(computation: Computation) -> float | None:
     """Half of the difference, or how much the elements around the peak disagree if that is more."""
     coarse, fine = computation.peaks[-2:]
     difference = abs(coarse.value - fine.value) / 2
-    return _percent(max(difference, fine.scatter, LEAST_STRESS_ERROR * fine.value), fine.value)
+    error = max(difference, fine.scatter, LEAST_STRESS_ERROR * fine.value)
+    if ends_factor(computation) > 1:
+        error += ENDS_STRESS_ERROR * fine.value
+    return _percent(error, fine.value)
 
 
 def _percent(error: float, value: float) -> float | None:

@@ -20,9 +20,10 @@ from bellows_design.analysis.mesh_sequence import affordable_plan, refined, star
 from bellows_design.analysis.models import UNIT_CELL, choose
 from bellows_design.analysis.whole_actuator import (
     curve_readings,
+    ends_factor,
     final_readings,
+    highest_stress,
     path_readings,
-    position,
     reading,
 )
 from bellows_design.budget import DEFAULT, Budget
@@ -31,6 +32,7 @@ from bellows_design.errors import DesignError
 from bellows_design.progress import SILENCE, Progress
 
 if TYPE_CHECKING:
+    from bellows_design.analysis.material_range import ReachedStrain
     from bellows_design.analysis.wall_contact import WallContact
     from solver import Solution
 
@@ -123,10 +125,8 @@ def evaluation_of(computation: Computation, state: LoadedState | None = None) ->
 
 def loaded_state(computation: Computation) -> LoadedState:
     """The whole actuator at the pressure that was reached, on the finest mesh."""
-    from bellows_design.analysis.material_range import reached_strain
-
-    finest, peak = computation.finest, computation.peaks[-1]
-    whole = reading(computation, finest.path[-1])
+    finest = computation.finest
+    whole, (stress, place) = reading(computation, finest.path[-1]), highest_stress(computation)
     return LoadedState(
         converged=computation.converged,
         message=computation.message,
@@ -135,13 +135,24 @@ def loaded_state(computation: Computation) -> LoadedState:
         limit_pressure_mpa=computation.limit_pressure_mpa,
         touch_pressure_mpa=computation.touch_pressure_mpa,
         bending_angle_deg=whole.bending_angle_deg,
-        max_von_mises_mpa=peak.value,
-        max_von_mises_position_mm=position(computation, peak),
+        max_von_mises_mpa=stress,
+        max_von_mises_position_mm=place,
         cavity_volume_mm3=whole.cavity_volume_mm3,
         error_estimate=error_estimate(computation),
-        strain=reached_strain(computation.design.material, finest),
+        strain=_reached_strain(computation),
         contact=_contact(computation),
     )
+
+
+def _reached_strain(computation: Computation) -> ReachedStrain:
+    """The extreme strains; with those of the ends where these are stressed more."""
+    from bellows_design.analysis.material_range import reached_strain
+
+    material = computation.design.material
+    strain = reached_strain(material, computation.finest)
+    if ends_factor(computation) == 1.0 or computation.ends is None:
+        return strain
+    return strain.joined(reached_strain(material, computation.ends))
 
 
 def mesh_size(solution: Solution) -> MeshSize:

@@ -8,7 +8,7 @@ for the highest stress, since the strain there depends on the mesh.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -60,6 +60,15 @@ class ReachedStrain:
         """True if the material is strained beyond its elongation at break."""
         limit = self.elongation_at_break
         return limit is not None and self.highest > limit
+
+    def joined(self, other: ReachedStrain) -> ReachedStrain:
+        """The extremes of both, of the same material."""
+        return replace(
+            self,
+            lowest=min(self.lowest, other.lowest),
+            highest=max(self.highest, other.highest),
+            instability=self.instability or other.instability,
+        )
 
     @property
     def warnings(self) -> tuple[str, ...]:

@@ -162,7 +162,7 @@ def _with_ends(computation: Computation, progress: Progress) -> Computation:
         return _with_free_ends(computation, progress)
     short = _with_short_actuator(computation, progress)
     if _stopped_inside(short):
-        return _with_free_ends(replace(short, ends=None), progress)
+        return _with_free_ends(replace(short, ends=None, ends_peak=None), progress)
     return short
 
 
@@ -191,7 +191,7 @@ def _with_short_actuator(computation: Computation, progress: Progress) -> Comput
     meshed = time.perf_counter()
     ends = _solved_roughly(short, HALF.problem(short, mesh), computation, progress)
     spent = Seconds(built - began, meshed - built, time.perf_counter() - meshed)
-    return replace(computation, ends=ends, seconds=computation.seconds + spent)
+    return _having(computation, ends, spent)
 
 
 def _with_free_ends(computation: Computation, progress: Progress) -> Computation:
@@ -201,7 +201,15 @@ def _with_free_ends(computation: Computation, progress: Progress) -> Computation
     problem = FREE_CELL.problem(design, computation.solutions[0].problem.mesh)
     ends = _solved_roughly(design, problem, computation, progress)
     spent = Seconds(solve=time.perf_counter() - began)
-    return replace(computation, ends=ends, seconds=computation.seconds + spent)
+    return _having(computation, ends, spent)
+
+
+def _having(computation: Computation, ends: Solution, spent: Seconds) -> Computation:
+    """The computation with a solution of its ends, which took that long."""
+    from solver import peak_von_mises
+
+    seconds = computation.seconds + spent
+    return replace(computation, ends=ends, ends_peak=peak_von_mises(ends), seconds=seconds)
 
 
 def _options(computation: Computation, tolerance: float) -> SolverOptions:

@@ -9,11 +9,13 @@ from itertools import pairwise
 import pytest
 
 from bellows_design import load_design, with_overrides
+from bellows_design.analysis.computation import Computation
 from bellows_design.analysis.evaluate import evaluate, evaluation_of
 from bellows_design.analysis.evaluation import Evaluation
 from bellows_design.analysis.models import FULL, HALF, UNIT_CELL
 from bellows_design.analysis.whole_actuator import Reading
 from bellows_design.design.design import Design
+from solver import Peak
 
 PRESSURES = (0.05, 0.02)
 CHEAP = (
@@ -114,6 +116,36 @@ def test_peak_is_placed_in_the_middle_bubble(cell: Evaluation) -> None:
     middle = cell.design.bellows.bubble_middles[1]
     assert middle <= x <= middle + cell.design.bellows.pitch / 2
     assert y >= 0 and 0 <= z <= cell.design.bellows.bubble_height
+
+
+@pytest.mark.parametrize("ratio", [0.5, 1.0, 1.14])
+def test_ends_that_are_stressed_less_change_nothing(cell: Evaluation, ratio: float) -> None:
+    """Nor a little more: so much the coarse meshes differ by chance."""
+    same = evaluation_of(with_ends_stressed(cell, ratio))
+    assert own_reading(same) == own_reading(cell) and same.error_estimate == cell.error_estimate
+
+
+def test_ends_that_are_stressed_more_decide_the_highest_stress(cell: Evaluation) -> None:
+    """A wide tendon may load the first and the last bubble half as much again as the others."""
+    found = evaluation_of(with_ends_stressed(cell, 1.5))
+    assert found.max_von_mises_mpa == pytest.approx(1.5 * cell.max_von_mises_mpa)
+    assert found.path[-1].max_von_mises_mpa == found.max_von_mises_mpa
+    assert found.bending_angle_deg == cell.bending_angle_deg
+    usual, now = (of.error_estimate.max_von_mises_percent for of in (cell, found))
+    assert usual is not None and now == pytest.approx(usual + 15)
+    first, last = (cell.design.bellows.bubble_middles[place] for place in (0, -1))
+    assert found.max_von_mises_position_mm[0] == pytest.approx(first - 1.0)
+    behind = evaluation_of(with_ends_stressed(cell, 1.5, offset=1.0))
+    assert behind.max_von_mises_position_mm[0] == pytest.approx(last + 1.0)
+    assert found.strain.highest >= cell.strain.highest
+
+
+def with_ends_stressed(cell: Evaluation, ratio: float, offset: float = -1.0) -> Computation:
+    """The computation with a peak in the ends, so far (mm) from their bubble's middle."""
+    computation = cell.computation
+    place = (cell.design.bellows.bubble_middles[0] + offset, 0.0, 1.0)
+    peak = Peak(ratio * computation.peaks[0].value, 0, place, 0.0)
+    return replace(computation, ends_peak=peak)
 
 
 def test_without_pressures_there_is_no_curve(cell: Evaluation) -> None:
