@@ -31,7 +31,7 @@ def fit(
     """
     _check(output, yield_strength, plot)
     from bellows_design.materials.fitted_material import why_no_material
-    from bellows_design.materials.fitting.measurements import load_measurements
+    from bellows_design.materials.measurements.loading import load_measurements
     from bellows_design.materials.selection import fit as fit_measurements
     from bellows_design.reports.fit import FitReport, fit_table
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from bellows_design.materials.fitting.fit_result import Fit
-from bellows_design.materials.fitting.measurements import Measurements
+from bellows_design.materials.measurements.points import Measurements
 from bellows_design.materials.laws import law_of_fit
 from bellows_design.materials.library import checked_material
 from bellows_design.materials.material import Material

@@ -23,6 +23,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Self
 from pydantic import Field, field_validator, model_validator
 from pydantic_core import PydanticKnownError
 
+from bellows_design.materials.bounds import SOFTEST, STIFFEST
 from bellows_design.materials.laws import LAWS, OWN_CONSTANTS, Law
 from bellows_design.validation.parameters import Parameters, require
 from bellows_design.validation.quoting import quoted
@@ -31,9 +32,6 @@ from solver.material.laws import law as solver_law
 if TYPE_CHECKING:
     from solver.material.constants import Constants
     from solver.material.law import Hyperelastic
-
-SOFTEST, STIFFEST = 0.003, 300.0
-"""MPa. Initial shear moduli from the softest silicones to the hardest TPU; more is a unit."""
 
 MOST_HIGHER = 4
 """Of Yeoh's higher terms; more would only fit the noise."""

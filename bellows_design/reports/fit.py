@@ -13,7 +13,7 @@ from rich.table import Table
 from rich.text import Text
 
 from bellows_design.materials.fitting.fit_result import Choice, Constant, Fit
-from bellows_design.materials.fitting.measurements import Measurements
+from bellows_design.materials.measurements.points import Measurements
 from bellows_design.reports.fit_notes import fit_notes
 from solver.material.stability import StableRange
 

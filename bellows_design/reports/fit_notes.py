@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bellows_design.materials.fitting.fit_result import Fit
-from bellows_design.materials.fitting.measurements import Measurements
+from bellows_design.materials.measurements.points import Measurements
 from solver.material.stability import HIGHEST
 
 POOR = 0.1

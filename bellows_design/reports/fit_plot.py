@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bellows_design.materials.fitting.fit_result import Fit
-from bellows_design.materials.fitting.measurements import Measurements
+from bellows_design.materials.measurements.points import Measurements
 from bellows_design.reports.plots import COLOURS, two_axes
 from solver.material.homogeneous import MODES, nominal_stress
 

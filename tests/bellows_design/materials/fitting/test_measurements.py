@@ -11,7 +11,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from bellows_design.errors import DesignError
-from bellows_design.materials.fitting.measurements import load_measurements, parse_measurements
+from bellows_design.materials.measurements.loading import load_measurements, parse_measurements
 
 ROWS = [(1.1, 0.3), (1.2, 0.5), (1.5, 0.9), (2.0, 1.4), (3.0, 2.2)]
 

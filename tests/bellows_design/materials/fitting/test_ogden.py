@@ -12,12 +12,9 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from bellows_design.errors import DesignError
-from bellows_design.materials.fitting.measurements import (
-    Measurements,
-    load_measurements,
-    parse_measurements,
-)
 from bellows_design.materials.laws import FIT_MODELS
+from bellows_design.materials.measurements.loading import load_measurements, parse_measurements
+from bellows_design.materials.measurements.points import Measurements
 from bellows_design.materials.selection import fit, fit_model
 from solver.material.homogeneous import MODES, nominal_stress
 from solver.material.ogden import packed

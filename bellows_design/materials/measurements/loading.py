@@ -1,0 +1,233 @@
+"""Measurements from files: what test machines write, with a record of how it was read.
+
+A line that names the columns is looked for below whatever stands above it; strains are nominal,
+stress is nominal (force over initial area), unless names or options say otherwise. What is not
+certain is asked in one sentence, which names the option that settles it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import groupby
+from pathlib import Path
+
+import numpy as np
+
+from bellows_design.errors import DesignError
+from bellows_design.materials.bounds import SOFTEST, STIFFEST
+from bellows_design.materials.measurements.branches import on_one_branch
+from bellows_design.materials.measurements.breaks import before_break
+from bellows_design.materials.measurements.columns import columns_of
+from bellows_design.materials.measurements.conversion import converted
+from bellows_design.materials.measurements.options import ReadingOptions
+from bellows_design.materials.measurements.points import Measurements, Reading
+from bellows_design.materials.measurements.series import Series, series_of
+from bellows_design.materials.measurements.specimens import mean_of
+from bellows_design.materials.measurements.strain_scale import secant_bend
+from bellows_design.materials.measurements.table.file import sheet_of_file
+from bellows_design.materials.measurements.table.header import table_of
+from bellows_design.materials.measurements.table.rows import Sheet, sheet_of_text
+from bellows_design.materials.measurements.zero import from_zero
+from bellows_design.validation.quoting import quoted_path
+from solver.arrays import Reals
+from solver.material.homogeneous import MODES
+
+FEWEST_POINTS = 5
+
+SMALLEST_PEAK = 1e-6
+"""MPa. Below this nothing was measured, or in another unit."""
+
+STRAY = 0.05
+"""Part of a test's largest stress up to which a stress of the wrong sign may be noise."""
+
+MOST_FILES = 50
+
+DEFAULT = ReadingOptions()
+
+
+def load_measurements(
+    paths: str | Path | Sequence[str | Path], options: ReadingOptions = DEFAULT
+) -> Measurements:
+    """The measurements in a file, or in several, each with specimens of its own.
+
+    Args:
+        paths: Tables of text or Excel workbooks; see ``docs/materials.md``.
+        options: What the files leave open.
+
+    Returns:
+        Stretches without unit and nominal stresses in MPa, with a record of how they were read.
+
+    Raises:
+        DesignError: A file cannot be read, is open to several readings, or a value is out of
+            bounds; one sentence.
+    """
+    files = [Path(paths)] if isinstance(paths, str | Path) else [Path(path) for path in paths]
+    if not 1 <= len(files) <= MOST_FILES:
+        raise DesignError(f"{len(files)} files are given but must be 1 to {MOST_FILES}.")
+    series: list[Series] = []
+    reading = Reading()
+    for file in files:
+        place = quoted_path(file)
+        found, record = _series(sheet_of_file(file, place, options), place, options, file.name)
+        series, reading = series + found, reading + _named(record, file.name, len(files) > 1)
+    name = files[0].name + (f" and {len(files) - 1} more" if len(files) > 1 else "")
+    return _measurements(series, reading, name, quoted_path(files[0]))
+
+
+def parse_measurements(
+    text: str, place: str, name: str = "", options: ReadingOptions = DEFAULT
+) -> Measurements:
+    """The measurements written as ``text``; ``place`` is what messages call it."""
+    series, reading = _series(sheet_of_text(text, place, options), place, options, name)
+    return _measurements(series, reading, name, place)
+
+
+def _named(record: Reading, name: str, several: bool) -> Reading:
+    if not several:
+        return record
+    return Reading(*(tuple(f"{name}: {each}" for each in texts) for texts in (record.notes, record.hints)))
+
+
+def _series(
+    sheet: Sheet, place: str, options: ReadingOptions, file: str
+) -> tuple[list[Series], Reading]:
+    """The series of a sheet, each on one branch, until break, and counted from its zero."""
+    table = table_of(sheet, place, options)
+    columns = columns_of(table)
+    raw = series_of(table, columns, sheet, place)
+    if not raw:
+        raise DesignError(f"{place} has 0 points but must have at least {FEWEST_POINTS}.")
+    series, how = converted(raw, table, columns.pairs[0], options)
+    notes = [*sheet.notes, *how, *columns.notes]
+    if columns.mode is None:
+        notes.append("all points are of uniaxial tests: no column “mode” says otherwise")
+    result = []
+    for each in series:
+        parts, note = on_one_branch(each, options.branch)
+        notes += [_of(each, note)] if note else []
+        for number, part in enumerate(parts):
+            prepared, more = _prepared(part, options)
+            label = f"{file} {each.specimen} {number if len(parts) > 1 else ''}".strip()
+            result.append(_labelled(prepared, label))
+            notes += [_of(each, text) for text in more]
+    return result, Reading(tuple(notes))
+
+
+def _labelled(series: Series, label: str) -> Series:
+    from dataclasses import replace
+
+    return replace(series, specimen=label)
+
+
+def _of(series: Series, note: str) -> str:
+    return f"specimen {series.specimen}: {note}" if series.specimen else note
+
+
+def _prepared(series: Series, options: ReadingOptions) -> tuple[Series, list[str]]:
+    """Without points after break, its strain from zero; and what was done."""
+    notes = []
+    if "break" not in options.keep:
+        parts = []
+        for mask in (series.strain < 1, series.strain >= 1):
+            part, note = before_break(series.at(mask)) if mask.any() else (series.at(mask), None)
+            parts.append(part.lines)
+            notes += [note] if note else []
+        series = series.at(np.isin(series.lines, np.concatenate(parts)))
+    if "zero" not in options.keep:
+        series, note = from_zero(series)
+        notes += [note] if note else []
+    return series, notes
+
+
+def _measurements(
+    series: Sequence[Series], reading: Reading, name: str, place: str
+) -> Measurements:
+    """All series together; of several specimens in one kind of test their mean."""
+    joined, spreads, notes = [], [], []
+    ordered = sorted(series, key=lambda each: each.mode)
+    for _, group in groupby(ordered, key=lambda each: each.mode):
+        specimens = list(group)
+        if len(specimens) > 1:
+            mean, spread, note = mean_of(specimens)
+            notes.append(note)
+        else:
+            mean, spread = specimens[0], np.zeros(specimens[0].strain.size)
+        joined.append(mean)
+        spreads.append(spread)
+    for each in series:
+        _require_signs(each)
+    result = Measurements(
+        name,
+        np.concatenate([each.strain for each in joined]),
+        np.concatenate([each.stress for each in joined]),
+        np.concatenate([np.full(each.strain.size, each.mode, np.intp) for each in joined]),
+        np.concatenate(spreads) if len(joined) < len(series) else None,
+        reading + Reading(tuple(notes), _hints(joined)),
+    )
+    _require_enough(result, place)
+    _require_elastomer(joined, place)
+    return result
+
+
+def _require_enough(data: Measurements, place: str) -> None:
+    count = data.stress.size
+    if count < FEWEST_POINTS:
+        points = "1 point" if count == 1 else f"{count} points"
+        raise DesignError(f"{place} has {points} but must have at least {FEWEST_POINTS}.")
+    if np.abs(data.stress).max() < SMALLEST_PEAK:
+        raise DesignError(
+            f"{place} has no stress above {SMALLEST_PEAK:g} MPa; is it in another unit? --units "
+            "tells it."
+        )
+
+
+def _require_signs(series: Series) -> None:
+    stretch, stress = series.strain, series.stress
+    against = np.flatnonzero(stress * (stretch - 1) < 0)
+    strays = against[np.abs(stress[against]) > STRAY * np.abs(stress).max(initial=0.0)]
+    if strays.size:
+        k = int(strays[0])
+        rule = "positive in tension" if stretch[k] > 1 else "negative in compression"
+        raise DesignError(
+            f"{series.where(k)}: the stress is {stress[k]:g} MPa at stretch {stretch[k]:g} but "
+            f"must be {rule}."
+        )
+
+
+def _require_elastomer(series: Sequence[Series], place: str) -> None:
+    """Refuse numbers whose initial modulus no elastomer has by far: they are in another unit."""
+    shears = [_shear(each) for each in series]
+    for shear in shears:
+        if shear and not SOFTEST / 3 <= shear <= 3 * STIFFEST:
+            raise DesignError(
+                f"{place} gives an initial shear modulus of about {shear:.3g} MPa, which no "
+                f"elastomer has ({SOFTEST:g} to {STIFFEST:g} MPa); is the strain or the stress in "
+                "another unit? --units tells it."
+            )
+
+
+def _shear(series: Series) -> float:
+    """The initial shear modulus as the largest secant tells it, MPa; 0 where it cannot."""
+    modulus, _ = secant_bend(series.strain - 1, series.stress)
+    return modulus / (2 * list(MODES.values())[series.mode].gap)
+
+
+def _hints(series: Sequence[Series]) -> tuple[str, ...]:
+    """Curves that do not bend as nominal stress does."""
+    if any(_never_bends(each.strain - 1, each.stress) for each in series if each.mode == 0):
+        return (
+            "the stress keeps rising as steeply as at first, as true stress does and nominal "
+            "stress of elastomers seldom: if it is force over present area, --true-stress turns "
+            "it into nominal stress",
+        )
+    return ()
+
+
+def _never_bends(strain: Reals, stress: Reals) -> bool:
+    reach = float(strain.max(initial=0.0))
+    inside = strain > 0.02 * reach
+    if reach < 0.5 or inside.sum() < FEWEST_POINTS:
+        return False
+    order = np.argsort(strain[inside], kind="stable")
+    secant = (stress[inside] / strain[inside])[order]
+    return bool(np.median(secant[-3:]) > 0.9 * np.median(secant[:3]) and secant.min() > 0.8 * np.median(secant[:3]))

@@ -1,0 +1,111 @@
+"""Whether strains without a unit are fractions or per cent: by physics, or it is asked.
+
+A test of an elastomer that ends below 1 % tells nothing, so numbers below 1 are fractions. Beyond,
+each reading must give an initial modulus that an elastomer can have. Where both do, the curve
+decides for fractions if it bends as rubber does over such strains but cannot within so many per
+cent; where it does not, the reading is asked for. Per cent are never assumed from the bend alone.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from bellows_design.errors import DesignError
+from bellows_design.materials.bounds import SOFTEST, STIFFEST
+from bellows_design.materials.measurements.table.headings import Heading
+from bellows_design.validation.quoting import quoted
+from solver.arrays import Reals
+
+LARGEST_FRACTION = 19.0
+"""No rubber is stretched to more than 20 times its length."""
+
+SMALLEST_TEST = 1.0
+"""Per cent. No test of an elastomer ends below."""
+
+MOST_BEND = 4.0
+"""Relative fall of the secant modulus for each unit of strain that no elastomer exceeds at once.
+The measured NinjaFlex has 1.2 over the first 15 %, neo-Hookean rubber 1."""
+
+NOISE = 0.05
+"""Relative fall of the secant modulus that counts as noise."""
+
+
+def secant_bend(strain: Reals, stress: Reals) -> tuple[float, float]:
+    """(largest secant modulus, least one beyond it over the largest), noise smoothed.
+
+    The secant modulus is the stress over the strain, of points with at least 5 % of the largest
+    stress; zeros where there are too few.
+    """
+    order = np.argsort(np.abs(strain), kind="stable")
+    size, load = np.abs(strain[order]), np.abs(stress[order])
+    kept = (size > 0) & (load >= 0.05 * load.max(initial=0.0))
+    if not kept.any():
+        return 0.0, 1.0
+    secant = _smoothed(load[kept] / size[kept])
+    peak = int(secant.argmax())
+    return float(secant[peak]), float(secant[peak:].min() / secant[peak])
+
+
+def percent_or_fraction(
+    heading: Heading, strain: Reals, stress: Reals, stiffness: float, named: str
+) -> tuple[float, str]:
+    """The factor from strains without a unit to fractions, and how it was decided.
+
+    ``stress`` in MPa; ``stiffness`` is the initial slope of the test over the shear modulus, 3 in
+    uniaxial tension. Raises ``DesignError``, a question, where it remains open.
+    """
+    reach = float(np.abs(strain).max(initial=0.0))
+    modulus, bend = secant_bend(strain, stress)
+    shear = modulus / stiffness
+    name = quoted(heading.text)
+    if reach < SMALLEST_TEST and strain.min() > -0.95:
+        return 1.0, f"{name} is read as a fraction: its largest number is {reach:.3g}"
+    fraction = _possible(shear) and reach <= LARGEST_FRACTION and strain.min() >= -0.95
+    percent = _possible(100 * shear)
+    rise = f"an initial shear modulus of {shear:.3g} MPa as fractions, {100 * shear:.3g} as per cent"
+    if fraction and not percent:
+        return 1.0, f"{name} is read as a fraction: per cent would be {100 * shear:.3g} MPa stiff"
+    if percent and not fraction:
+        return 0.01, (
+            f"{name} is read as per cent: as fractions, up to {reach:.3g}, no elastomer has them "
+            f"({rise})"
+        )
+    if fraction and bend < 1 - MOST_BEND * reach / 100 - NOISE:
+        return 1.0, (
+            f"{name} is read as a fraction: the curve bends as rubber does up to {100 * reach:.3g} "
+            f"%, not within {reach:.3g} %"
+        )
+    raise DesignError(
+        f"{named}: the strains {name}, up to {reach:.3g}, may be fractions or per cent ({rise}); "
+        "--units strain=1 or --units strain=% tells which."
+    )
+
+
+def require_plausible(
+    heading: Heading, factor: float, strain: Reals, stress: Reals, named: str
+) -> None:
+    """Refuse per cent, as a header says, where the curve can only be of fractions.
+
+    ``strain`` as given, ``factor`` the unit's. Raises ``DesignError``, a question.
+    """
+    reach = float(np.abs(strain).max(initial=0.0))
+    _, bend = secant_bend(strain, stress)
+    if factor == 0.01 and 0 < reach <= 10 and bend < 1 - MOST_BEND * reach / 100 - NOISE:
+        raise DesignError(
+            f"{named}: {quoted(heading.text)} says per cent, but the curve bends as rubber does up "
+            f"to {100 * reach:.3g} %, not within {reach:.3g} %; --units strain=1 or --units "
+            "strain=% tells which."
+        )
+
+
+def _possible(shear: float) -> bool:
+    return SOFTEST <= shear <= STIFFEST
+
+
+def _smoothed(values: Reals) -> Reals:
+    """Medians of five neighbours, of fewer at the ends."""
+    if values.size < 5:
+        return values
+    padded = np.pad(values, 2, mode="edge")
+    result: Reals = np.median(np.lib.stride_tricks.sliding_window_view(padded, 5), axis=1)
+    return result
