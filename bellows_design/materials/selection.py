@@ -9,7 +9,8 @@ corrected information criterion
 s the relative error, K the free constants and the error, but no s below 1 %: no test is better.
 With few points its last term outweighs any error. Hence a model does not count whose error is more
 than the measurements allow: at least twice that of a larger stable model, and by the F test of
-their sums of squares by chance in less than one of a hundred such tests.
+their sums of squares by chance in less than one of a hundred such tests. Nor does one whose initial shear
+modulus the beginning of the tests contradicts, if there are others.
 Sources: K. P. Burnham and D. R. Anderson, Model Selection and Multimodel Inference, 2002; N. R.
 Draper and H. Smith, Applied Regression Analysis, 1998, section 6.1.
 """
@@ -22,6 +23,7 @@ from bellows_design.errors import DesignError
 from bellows_design.materials.fitting.fit_model import FitModel
 from bellows_design.materials.fitting.fit_result import BEST_ERROR, Choice, Fit
 from bellows_design.materials.measurements.points import Measurements
+from bellows_design.materials.fitting.initial_modulus import initial_modulus
 from bellows_design.materials.fitting.weighted import Weighted
 from bellows_design.materials.laws import BEST, FIT_CHOICES, FIT_MODELS, law_of_fit
 from bellows_design.validation.quoting import did_you_mean, quoted
@@ -31,6 +33,9 @@ NOT_MUCH_WORSE = 10.0
 
 WORSE, BY_CHANCE = 2.0, 0.01
 """Ratio of errors, and probability, from which on a larger model contradicts a smaller one."""
+
+MODULUS_OFF = 5.0
+"""%. Difference of initial shear moduli from which on the beginning of the tests contradicts."""
 
 
 def fit(data: Measurements, model: str = BEST) -> Choice:
@@ -107,8 +112,18 @@ def _choice(data: Measurements, tried: Sequence[Fit]) -> Choice:
     """The best of the fits, and the one that the criterion alone would take if it differs."""
     good = [each for each in tried if usable(data, each) and not each.vanished] or list(tried)
     allowed = [each for each in good if not any(_contradicts(other, each) for other in good)]
+    allowed = _with_right_modulus(data, allowed) or _with_right_modulus(data, good) or allowed
     best, by_criterion = _best(allowed), _best(good)
     return Choice(best, tuple(tried), None if best is by_criterion else by_criterion)
+
+
+def _with_right_modulus(data: Measurements, fits: Sequence[Fit]) -> list[Fit]:
+    """Those whose initial shear modulus the beginning of the tests does not contradict."""
+    start = initial_modulus(data)
+    if start is None:
+        return list(fits)
+    moduli = [(each, each.stability.shear_modulus) for each in fits]
+    return [each for each, modulus in moduli if not start.contradicts(modulus, MODULUS_OFF)]
 
 
 def _best(good: Sequence[Fit]) -> Fit:
