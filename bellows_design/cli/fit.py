@@ -108,9 +108,7 @@ def _written(data: Measurements, fit: Fit, wanted: MaterialOptions) -> Material 
     from bellows_design.materials.library import write_material
 
     name = _name(wanted.output)
-    result = fitted_material(
-        data, fit, name, wanted.yield_strength, wanted.elongation_at_break
-    )
+    result = fitted_material(data, fit, name, wanted.yield_strength, wanted.elongation_at_break)
     write_material(result, wanted.output)
     return result
 

@@ -105,7 +105,9 @@ Units = Annotated[
 ]
 Skip = Annotated[
     str | None,
-    typer.Option(metavar="LINES", help="Lines to leave out: 4 the first four, 3-5, 70- to the end."),
+    typer.Option(
+        metavar="LINES", help="Lines to leave out: 4 the first four, 3-5, 70- to the end."
+    ),
 ]
 Decimal = Annotated[str | None, typer.Option(metavar="SIGN", help="Decimal sign: point or comma.")]
 Branch = Annotated[

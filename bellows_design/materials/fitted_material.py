@@ -7,10 +7,10 @@ from typing import Any
 from bellows_design.materials.bounds import POOR_FIT, POOR_MODULUS
 from bellows_design.materials.fitting.fit_result import Fit
 from bellows_design.materials.fitting.initial_modulus import initial_modulus
-from bellows_design.materials.measurements.points import Measurements
 from bellows_design.materials.laws import law_of_fit
 from bellows_design.materials.library import checked_material
 from bellows_design.materials.material import Material
+from bellows_design.materials.measurements.points import Measurements
 from bellows_design.materials.selection import usable
 from bellows_design.validation.quoting import quoted
 

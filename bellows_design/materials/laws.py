@@ -14,8 +14,8 @@ from solver.material import laws as solver_laws
 
 if TYPE_CHECKING:
     from bellows_design.materials.fitting.fit_result import Fit
-    from bellows_design.materials.measurements.points import Measurements
     from bellows_design.materials.fitting.weighted import Weighted
+    from bellows_design.materials.measurements.points import Measurements
 
 
 class Law(NamedTuple):

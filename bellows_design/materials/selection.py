@@ -22,10 +22,10 @@ from collections.abc import Sequence
 from bellows_design.errors import DesignError
 from bellows_design.materials.fitting.fit_model import FitModel
 from bellows_design.materials.fitting.fit_result import BEST_ERROR, Choice, Fit
-from bellows_design.materials.measurements.points import Measurements
 from bellows_design.materials.fitting.initial_modulus import initial_modulus
 from bellows_design.materials.fitting.weighted import Weighted
 from bellows_design.materials.laws import BEST, FIT_CHOICES, FIT_MODELS, law_of_fit
+from bellows_design.materials.measurements.points import Measurements
 from bellows_design.validation.quoting import did_you_mean, quoted
 
 NOT_MUCH_WORSE = 10.0

@@ -45,7 +45,9 @@ class FitReport:
     def notes(self) -> tuple[str, ...]:
         """Sentences on what the fit leaves open."""
         notes = fit_notes(self.data, self.choice)
-        return notes if self.material is None else (*notes, *material_notes(self.data, self.material))
+        return (
+            notes if self.material is None else (*notes, *material_notes(self.data, self.material))
+        )
 
     def to_dict(self) -> dict[str, Any]:
         """Plain values for JSON: stresses in MPa, stretches and strains without unit."""

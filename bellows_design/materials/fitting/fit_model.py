@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
     from bellows_design.materials.fitting.fit_result import Fit
-    from bellows_design.materials.measurements.points import Measurements
     from bellows_design.materials.fitting.weighted import Weighted
+    from bellows_design.materials.measurements.points import Measurements
 
 Fitter = Callable[["Measurements", "Weighted", "FitModel"], "Fit"]
 

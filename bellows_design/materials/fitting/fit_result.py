@@ -8,8 +8,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bellows_design.materials.measurements.points import Measurements
 from bellows_design.materials.fitting.weighted import Weighted
+from bellows_design.materials.measurements.points import Measurements
 from solver.arrays import Reals
 from solver.material.constants import Constants
 from solver.material.homogeneous import MODES, nominal_stress

@@ -78,7 +78,10 @@ def on_one_branch(series: Series, wanted: str | None) -> tuple[list[Series], str
         return [series], None
     if series.strain.size < SHORTEST_BRANCH * len(found):
         return _in_steps(series, found, sign * size, wanted)
-    if not any(_is_jump(each, sign * size) for each in found if not each.rising) and wanted != "specimens":
+    if (
+        not any(_is_jump(each, sign * size) for each in found if not each.rising)
+        and wanted != "specimens"
+    ):
         return _chosen(series, found, sign * size, wanted)
     return _in_steps(series, found, sign * size, wanted)
 
@@ -108,7 +111,9 @@ def _in_steps(
     """Loadings that begin again without a way back: specimens, cycles, or points in no order."""
     starts = [each.start for each in found if each.rising]
     returns = [each for each in found if not each.rising]
-    if series.strain.size < SHORTEST_BRANCH * len(starts) or not all(_is_jump(each, size) for each in returns):
+    if series.strain.size < SHORTEST_BRANCH * len(starts) or not all(
+        _is_jump(each, size) for each in returns
+    ):
         if wanted in (None, "all"):
             return [series], "the points stand in no order of strain; all are used"
         raise DesignError(

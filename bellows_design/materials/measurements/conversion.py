@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -59,9 +59,7 @@ def converted(
     return results, tuple(text for text in notes if text)
 
 
-def _stress_factor(
-    found: Heading, table: Table, options: ReadingOptions
-) -> tuple[float, str]:
+def _stress_factor(found: Heading, table: Table, options: ReadingOptions) -> tuple[float, str]:
     """From numbers as given to MPa, and a note."""
     if found.unit is None:
         name, units = (
@@ -83,7 +81,10 @@ def _stress_factor(
             "specimen in mm² that it is divided by."
         )
     origin = "as given" if options.area else "from the lines above the table"
-    return unit / area, f"in {shown_unit(found.unit)}, over the initial area of {area:g} mm² ({origin})"
+    return (
+        unit / area,
+        f"in {shown_unit(found.unit)}, over the initial area of {area:g} mm² ({origin})",
+    )
 
 
 def _strain_scale(
@@ -108,19 +109,22 @@ def _strain_scale(
     )
 
 
-def _extension_scale(
-    found: Heading, table: Table, options: ReadingOptions
-) -> tuple[float, str]:
+def _extension_scale(found: Heading, table: Table, options: ReadingOptions) -> tuple[float, str]:
     lengths = table.facts.get("gauge_length", ())
     length = options.gauge_length or (lengths[0] if len(lengths) == 1 else None)
     if found.unit is None or length is None:
-        missing = "--units extension=mm tells its unit" if found.unit is None else (
-            "--gauge-length MM gives the initial length in mm that it is divided by"
+        missing = (
+            "--units extension=mm tells its unit"
+            if found.unit is None
+            else ("--gauge-length MM gives the initial length in mm that it is divided by")
         )
         raise DesignError(f"{table.named}: {shown(found)} is an extension; {missing}.")
     origin = "as given" if options.gauge_length else "from the lines above the table"
     unit = UNITS["extension"][found.unit]
-    return unit / length, f"in {shown_unit(found.unit)}, over the initial length of {length:g} mm ({origin})"
+    return (
+        unit / length,
+        f"in {shown_unit(found.unit)}, over the initial length of {length:g} mm ({origin})",
+    )
 
 
 def _stretch(strain: Reals, found: Heading, true: bool) -> Reals:

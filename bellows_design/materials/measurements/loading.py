@@ -8,6 +8,7 @@ certain is asked in one sentence, which names the option that settles it.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from itertools import groupby
 from pathlib import Path
 
@@ -19,11 +20,12 @@ from bellows_design.materials.measurements.branches import on_one_branch
 from bellows_design.materials.measurements.breaks import before_break
 from bellows_design.materials.measurements.columns import columns_of
 from bellows_design.materials.measurements.conversion import converted
+from bellows_design.materials.measurements.crosscheck import checked_by_force
 from bellows_design.materials.measurements.options import ReadingOptions
 from bellows_design.materials.measurements.points import Measurements, Reading
 from bellows_design.materials.measurements.series import Series, series_of
 from bellows_design.materials.measurements.specimens import mean_of
-from bellows_design.materials.measurements.strain_scale import secant_bend
+from bellows_design.materials.measurements.strain_scale import bend_of
 from bellows_design.materials.measurements.table.file import sheet_of_file
 from bellows_design.materials.measurements.table.header import table_of
 from bellows_design.materials.measurements.table.rows import Sheet, sheet_of_text
@@ -39,6 +41,9 @@ SMALLEST_PEAK = 1e-6
 
 STRAY = 0.05
 """Part of a test's largest stress up to which a stress of the wrong sign may be noise."""
+
+USUAL = (0.008, 30.0)
+"""MPa. Initial shear moduli from Shore 00-20 to 50 D; others get a hint."""
 
 MOST_FILES = 50
 
@@ -85,7 +90,9 @@ def parse_measurements(
 def _named(record: Reading, name: str, several: bool) -> Reading:
     if not several:
         return record
-    return Reading(*(tuple(f"{name}: {each}" for each in texts) for texts in (record.notes, record.hints)))
+    return Reading(
+        *(tuple(f"{name}: {each}" for each in texts) for texts in (record.notes, record.hints))
+    )
 
 
 def _series(
@@ -101,6 +108,9 @@ def _series(
     notes = [*sheet.notes, *how, *columns.notes]
     if columns.mode is None:
         notes.append("all points are of uniaxial tests: no column “mode” says otherwise")
+    for each in series:
+        note = checked_by_force(each, table, columns.pairs[0], sheet, options)
+        notes += [note] if note else []
     result = []
     for each in series:
         parts, note = on_one_branch(each, options.branch)
@@ -108,15 +118,9 @@ def _series(
         for number, part in enumerate(parts):
             prepared, more = _prepared(part, options)
             label = f"{file} {each.specimen} {number if len(parts) > 1 else ''}".strip()
-            result.append(_labelled(prepared, label))
+            result.append(replace(prepared, specimen=label))
             notes += [_of(each, text) for text in more]
     return result, Reading(tuple(notes))
-
-
-def _labelled(series: Series, label: str) -> Series:
-    from dataclasses import replace
-
-    return replace(series, specimen=label)
 
 
 def _of(series: Series, note: str) -> str:
@@ -195,10 +199,10 @@ def _require_signs(series: Series) -> None:
 
 
 def _require_elastomer(series: Sequence[Series], place: str) -> None:
-    """Refuse numbers whose initial modulus no elastomer has by far: they are in another unit."""
+    """Refuse numbers whose initial modulus no elastomer has: they are in another unit."""
     shears = [_shear(each) for each in series]
     for shear in shears:
-        if shear and not SOFTEST / 3 <= shear <= 3 * STIFFEST:
+        if shear and not SOFTEST / 1.1 <= shear <= 1.1 * STIFFEST:
             raise DesignError(
                 f"{place} gives an initial shear modulus of about {shear:.3g} MPa, which no "
                 f"elastomer has ({SOFTEST:g} to {STIFFEST:g} MPa); is the strain or the stress in "
@@ -208,19 +212,26 @@ def _require_elastomer(series: Sequence[Series], place: str) -> None:
 
 def _shear(series: Series) -> float:
     """The initial shear modulus as the largest secant tells it, MPa; 0 where it cannot."""
-    modulus, _ = secant_bend(series.strain - 1, series.stress)
+    modulus = bend_of(series.strain - 1, series.stress).stiffest
     return modulus / (2 * list(MODES.values())[series.mode].gap)
 
 
 def _hints(series: Sequence[Series]) -> tuple[str, ...]:
-    """Curves that do not bend as nominal stress does."""
+    """Curves that do not bend as nominal stress does, moduli that few elastomers have."""
+    hints = []
     if any(_never_bends(each.strain - 1, each.stress) for each in series if each.mode == 0):
-        return (
+        hints.append(
             "the stress keeps rising as steeply as at first, as true stress does and nominal "
             "stress of elastomers seldom: if it is force over present area, --true-stress turns "
-            "it into nominal stress",
+            "it into nominal stress"
         )
-    return ()
+    for shear in map(_shear, series):
+        if shear and not USUAL[0] <= shear <= USUAL[1]:
+            hints.append(
+                f"the initial shear modulus is about {shear:.3g} MPa, that of few elastomers: if "
+                "the stress is in another unit, such as kgf/cm², psi or kPa, --units tells it"
+            )
+    return tuple(dict.fromkeys(hints))
 
 
 def _never_bends(strain: Reals, stress: Reals) -> bool:
@@ -230,4 +241,5 @@ def _never_bends(strain: Reals, stress: Reals) -> bool:
         return False
     order = np.argsort(strain[inside], kind="stable")
     secant = (stress[inside] / strain[inside])[order]
-    return bool(np.median(secant[-3:]) > 0.9 * np.median(secant[:3]) and secant.min() > 0.8 * np.median(secant[:3]))
+    first = np.median(secant[:3])
+    return bool(np.median(secant[-3:]) > 0.9 * first and secant.min() > 0.8 * first)

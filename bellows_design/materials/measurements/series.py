@@ -70,7 +70,9 @@ def series_of(table: Table, columns: Columns, sheet: Sheet, place: str) -> list[
             values, percent = _values(row, pair, table, sheet, where)
             time = sheet.number(row.cells[columns.time]) if _has(row, columns.time) else None
             key = (_mode(row, columns.mode, where), label.strip())
-            points.setdefault(key, []).append((*values, row.number, math.nan if time is None else time))
+            points.setdefault(key, []).append(
+                (*values, row.number, math.nan if time is None else time)
+            )
             percents.add(percent)
     if len(percents) > 1:
         raise DesignError(f"{place} has a sign of per cent behind some strains but not all.")
@@ -135,7 +137,9 @@ def _no_number(cell: str, sheet: Sheet, what: str, line: int) -> str:
     other = "," if sheet.decimal == "." else "."
     if Sheet((), decimal=other).number(cell) is not None:
         right, wrong = ("point", "comma") if sheet.decimal == "." else ("comma", "point")
-        return f"{what} is {quoted(cell)} but needs a decimal {right}, not a {wrong}, as the others."
+        return (
+            f"{what} is {quoted(cell)} but needs a decimal {right}, not a {wrong}, as the others."
+        )
     finite = "finite " if _NOT_FINITE.fullmatch(cell[:40]) else ""
     return (
         f"{what} is {quoted(cell)} but must be a {finite}number; --skip {line} leaves the line out."

@@ -43,9 +43,7 @@ def mean_of(specimens: Sequence[Series]) -> tuple[Series, Reals, str]:
     mean, spread = stresses.mean(axis=0), stresses.std(axis=0, ddof=1)
     first = specimens[0]
     nothing = np.full(grid.size, np.nan)
-    result = replace(
-        first, specimen="", strain=grid, stress=mean, lines=nothing, time=nothing
-    )
+    result = replace(first, specimen="", strain=grid, stress=mean, lines=nothing, time=nothing)
     return result, spread, _note(first, curves, grid, mean, spread)
 
 

@@ -1,12 +1,14 @@
 """Whether strains without a unit are fractions or per cent: by physics, or it is asked.
 
-A test of an elastomer that ends below 1 % tells nothing, so numbers below 1 are fractions. Beyond,
+A test of an elastomer that ends below 0.3 % tells nothing, so smaller numbers are fractions. Beyond,
 each reading must give an initial modulus that an elastomer can have. Where both do, the curve
 decides for fractions if it bends as rubber does over such strains but cannot within so many per
 cent; where it does not, the reading is asked for. Per cent are never assumed from the bend alone.
 """
 
 from __future__ import annotations
+
+from typing import NamedTuple
 
 import numpy as np
 
@@ -19,7 +21,7 @@ from solver.arrays import Reals
 LARGEST_FRACTION = 19.0
 """No rubber is stretched to more than 20 times its length."""
 
-SMALLEST_TEST = 1.0
+SMALLEST_TEST = 0.3
 """Per cent. No test of an elastomer ends below."""
 
 MOST_BEND = 4.0
@@ -30,20 +32,36 @@ NOISE = 0.05
 """Relative fall of the secant modulus that counts as noise."""
 
 
-def secant_bend(strain: Reals, stress: Reals) -> tuple[float, float]:
-    """(largest secant modulus, least one beyond it over the largest), noise smoothed.
+class Bend(NamedTuple):
+    """How the secant modulus, stress over strain, changes along a test.
 
-    The secant modulus is the stress over the strain, of points with at least 5 % of the largest
-    stress; zeros where there are too few.
+    Attributes:
+        stiffest: Its largest value, in units of stress.
+        fall: Its least value beyond that, over the largest.
+        rise: Its last value over that least one.
     """
+
+    stiffest: float
+    fall: float
+    rise: float
+
+    def is_of_rubber(self, percent: float) -> bool:
+        """True if no elastomer bends so within that many per cent: they must be fractions."""
+        falls = self.fall < 1 - MOST_BEND * percent / 100 - NOISE
+        return falls or (self.rise > 1 + 3 * NOISE and self.fall < 1 - 2 * NOISE)
+
+
+def bend_of(strain: Reals, stress: Reals) -> Bend:
+    """The bend of a curve, from points with at least 5 % of the largest stress, noise smoothed."""
     order = np.argsort(np.abs(strain), kind="stable")
     size, load = np.abs(strain[order]), np.abs(stress[order])
     kept = (size > 0) & (load >= 0.05 * load.max(initial=0.0))
     if not kept.any():
-        return 0.0, 1.0
+        return Bend(0.0, 1.0, 1.0)
     secant = _smoothed(load[kept] / size[kept])
     peak = int(secant.argmax())
-    return float(secant[peak]), float(secant[peak:].min() / secant[peak])
+    least = float(secant[peak:].min())
+    return Bend(float(secant[peak]), least / float(secant[peak]), float(secant[-1]) / least)
 
 
 def percent_or_fraction(
@@ -55,14 +73,16 @@ def percent_or_fraction(
     uniaxial tension. Raises ``DesignError``, a question, where it remains open.
     """
     reach = float(np.abs(strain).max(initial=0.0))
-    modulus, bend = secant_bend(strain, stress)
-    shear = modulus / stiffness
+    bend = bend_of(strain, stress)
+    shear = bend.stiffest / stiffness
     name = quoted(heading.text)
     if reach < SMALLEST_TEST and strain.min() > -0.95:
         return 1.0, f"{name} is read as a fraction: its largest number is {reach:.3g}"
     fraction = _possible(shear) and reach <= LARGEST_FRACTION and strain.min() >= -0.95
     percent = _possible(100 * shear)
-    rise = f"an initial shear modulus of {shear:.3g} MPa as fractions, {100 * shear:.3g} as per cent"
+    rise = (
+        f"an initial shear modulus of {shear:.3g} MPa as fractions, {100 * shear:.3g} as per cent"
+    )
     if fraction and not percent:
         return 1.0, f"{name} is read as a fraction: per cent would be {100 * shear:.3g} MPa stiff"
     if percent and not fraction:
@@ -70,7 +90,7 @@ def percent_or_fraction(
             f"{name} is read as per cent: as fractions, up to {reach:.3g}, no elastomer has them "
             f"({rise})"
         )
-    if fraction and bend < 1 - MOST_BEND * reach / 100 - NOISE:
+    if fraction and bend.is_of_rubber(reach):
         return 1.0, (
             f"{name} is read as a fraction: the curve bends as rubber does up to {100 * reach:.3g} "
             f"%, not within {reach:.3g} %"
@@ -89,8 +109,7 @@ def require_plausible(
     ``strain`` as given, ``factor`` the unit's. Raises ``DesignError``, a question.
     """
     reach = float(np.abs(strain).max(initial=0.0))
-    _, bend = secant_bend(strain, stress)
-    if factor == 0.01 and 0 < reach <= 10 and bend < 1 - MOST_BEND * reach / 100 - NOISE:
+    if factor == 0.01 and 0 < reach <= 19 and bend_of(strain, stress).is_of_rubber(reach):
         raise DesignError(
             f"{named}: {quoted(heading.text)} says per cent, but the curve bends as rubber does up "
             f"to {100 * reach:.3g} %, not within {reach:.3g} %; --units strain=1 or --units "

@@ -26,6 +26,10 @@ FEWEST_POINTS = 8
 STEEPER = 1.3
 """Largest slope of the beginning over the first one from which on that is a toe."""
 
+MOST_STEEPER = 1.5
+"""Slope at the end over that of the beginning which tension of an elastomer does not reach if it
+never falls in between."""
+
 FAR = 0.3
 """Strain from which on a test must not begin with a stress of nothing."""
 
@@ -35,17 +39,18 @@ CERTAIN = 4.0
 LEAST_TOE, LEAST_PRELOAD = 0.005, 0.05
 """Strain, and part of the stress at the end of the zone, below which it does not matter."""
 
-MOST = 0.15
-"""Strain. A larger shift is no preload or toe but something else."""
+MOST, MOST_SLACK = 0.06, 0.5
+"""Strain. A larger preload, or slack, is something else."""
 
 NEAR = 0.1
 """Strain within which the curve is continued to zero."""
 
 
 class _Shift(NamedTuple):
-    """Strain at which the stress begins, the first strain that counts, and what it is."""
+    """Strain at which the stress begins, its error, the first strain that counts, what it is."""
 
     strain: float
+    error: float
     first: float
     what: str
 
@@ -60,16 +65,19 @@ def from_zero(series: Series) -> tuple[Series, str | None]:
     if strain.size < FEWEST_POINTS or strain[0] < -0.02:
         return series, None
     _require_near_zero(series, strain, stress)
+    _require_bend(series, strain, stress)
     found = _toe(strain, stress) or _preload(strain, stress)
     if found is None:
         return series, None
-    if abs(found.strain) > MOST:
+    slack = found.strain > 0 and strain[0] < MOST and strain.size
+    if abs(found.strain) > (MOST_SLACK if slack else MOST):
         raise DesignError(_too_far(series, found.strain))
     moved = replace(series, strain=series.strain / (1 + found.strain))
     kept = moved.at(series.strain - 1 >= found.first)
     left = series.strain.size - kept.strain.size
     return kept, (
-        f"{found.what}: strain is counted from {100 * found.strain:.3g} % of the file"
+        f"{found.what}: strain is counted from {100 * found.strain:.3g} ± {200 * found.error:.1g} "
+        "% of the file"
         f"{f', {left} points before are left out' if left else ''}; --keep zero takes it as it is"
     )
 
@@ -79,6 +87,25 @@ def _require_near_zero(series: Series, strain: Reals, stress: Reals) -> None:
     begin = _line(strain[:6], stress[:6])
     if strain[0] > FAR and begin.slope > 0 and begin.zero > 0.7 * strain[0]:
         raise DesignError(_too_far(series, begin.zero))
+
+
+def _require_bend(series: Series, strain: Reals, stress: Reals) -> None:
+    """Refuse curves that rise ever more steeply from the first, as no nominal tension does."""
+    parts = [part for part in np.array_split(np.arange(strain.size), 6) if part.size >= 4]
+    slopes = [_line(strain[part], stress[part]).slope for part in parts]
+    if len(slopes) < 6 or not np.isfinite(slopes).all() or np.ptp(strain) < 0.2:
+        return
+    if (
+        slopes[0] < min(slopes[1:])
+        and slopes[-1] > MOST_STEEPER * slopes[0]
+        and (slopes[-1] > 0.95 * max(slopes))
+    ):
+        raise DesignError(
+            f"{series.place}: the stress rises ever more steeply from the first on, as no nominal "
+            "stress of an elastomer in tension: is it true stress (--true-stress), or compression "
+            "that counts as positive (--columns compressive_strain,compressive_stress_mpa)? "
+            "--keep zero takes strain and stress as they are."
+        )
 
 
 def _too_far(series: Series, zero: float) -> str:
@@ -91,42 +118,97 @@ def _too_far(series: Series, zero: float) -> str:
 
 def _toe(strain: Reals, stress: Reals) -> _Shift | None:
     """Slack: the steepest tangent of the beginning is not the first."""
-    zone = np.flatnonzero(strain <= strain[0] + min(ZONE, np.ptp(strain) / 2))
-    width = max(6, zone.size // 6)
-    if zone.size < 2 * width:
-        return None
-    lines = [_line(strain[k : k + width], stress[k : k + width]) for k in range(zone.size - width)]
+    lines = _tangents(strain, stress)
     slopes = np.array([each.slope for each in lines])
-    steepest = int(slopes.argmax())
-    chosen = lines[steepest]
-    if not chosen.slope > STEEPER * max(slopes[0], 0.0):
+    if not lines or slopes.max() <= STEEPER * max(slopes[0], 0.0):
         return None
-    noise = np.median([each.noise for each in lines])
-    error = chosen.reach * np.sqrt(noise) / chosen.slope
-    if chosen.zero - strain[0] < max(LEAST_TOE, CERTAIN * error):
+    steepest = int(slopes.argmax())
+    start = _parabola(strain[steepest:], stress[steepest:])
+    if start is None or start.zero - strain[0] < max(LEAST_TOE, CERTAIN * start.error):
         return None
     what = "the curve begins flat, as with slack or a toe"
-    return _Shift(chosen.zero, float(strain[steepest]), what)
+    return _Shift(start.zero, start.error, float(strain[steepest]), what)
 
 
 def _preload(strain: Reals, stress: Reals) -> _Shift | None:
-    """Stress at zero strain, by a parabola through the beginning."""
-    near = np.flatnonzero(strain <= strain[0] + NEAR)
-    near = near if near.size >= FEWEST_POINTS else np.arange(0)
-    if not near.size or strain[0] > NEAR / 5:
+    """Stress at zero strain, by the continued beginning of the curve."""
+    start = _parabola(strain, stress)
+    if start is None or strain[0] > NEAR / 5:
         return None
-    x, y = strain[near], stress[near]
-    basis = np.stack([np.ones_like(x), x, x * x], axis=1)
-    (start, slope, _), *_ = np.linalg.lstsq(basis, y, rcond=None)
-    left = y - basis @ np.linalg.lstsq(basis, y, rcond=None)[0]
-    noise = float(left @ left) / (x.size - 3)
-    error = float(np.sqrt(noise * np.linalg.pinv(basis.T @ basis)[0, 0]))
-    if slope <= 0 or abs(start) < max(CERTAIN * error, LEAST_PRELOAD * float(np.abs(y).max())):
+    slope = start.stress / -start.zero if start.zero else np.inf
+    if abs(start.stress) < max(CERTAIN * start.error * abs(slope), LEAST_PRELOAD * start.top):
         return None
-    what = f"the stress at zero strain is {start:.3g} MPa, taken for a preload"
-    if start < 0:
-        what = f"the stress at zero strain is {start:.3g} MPa, taken for slack"
-    return _Shift(-start / slope, -1.0 if start > 0 else -start / slope, what)
+    what = "a preload" if start.stress > 0 else "slack"
+    return _Shift(
+        start.zero,
+        start.error,
+        max(start.zero, -1.0) if start.stress < 0 else -1.0,
+        f"the stress at zero strain is {start.stress:.3g} MPa, taken for {what}",
+    )
+
+
+def _tangents(strain: Reals, stress: Reals) -> list[_Line]:
+    """Lines through points beside each other, from the first on, within the beginning."""
+    reach = strain[0] + min(ZONE, np.ptp(strain) / 2)
+    while True:
+        zone = int((strain <= reach).sum())
+        width = max(6, zone // 6)
+        if zone < 2 * width:
+            return []
+        lines = [
+            _line(strain[k : k + width], stress[k : k + width]) for k in range(zone - width + 1)
+        ]
+        at_the_end = int(np.argmax([each.slope for each in lines])) >= len(lines) - 1
+        if not at_the_end or reach >= min(MOST_SLACK, strain[-1]):
+            return [] if at_the_end and len(lines) > 1 else lines
+        reach += ZONE / 2
+
+
+class _Start(NamedTuple):
+    """A curve continued to the left: its zero, the standard error of that, its stress at 0."""
+
+    zero: float
+    error: float
+    stress: float
+    top: float
+
+
+def _parabola(strain: Reals, stress: Reals) -> _Start | None:
+    """A polynomial through the first points, continued to where it is zero.
+
+    A parabola within the nearest strains; where these hold too few points, a cubic over more.
+    """
+    near = int((strain <= strain[0] + NEAR).sum())
+    degree = 2
+    if near < FEWEST_POINTS:
+        near, degree = max(near, FEWEST_POINTS), 3
+        if strain.size < near or strain[near - 1] > strain[0] + 3 * NEAR:
+            return None
+    x, y = strain[:near] - strain[0], stress[:near]
+    basis = np.vander(x, degree + 1, increasing=True)
+    solution, *_ = np.linalg.lstsq(basis, y, rcond=None)
+    left = y - basis @ solution
+    slope = float(solution[1])
+    if slope <= 0:
+        return None
+    noise = float(left @ left) / max(x.size - degree - 1, 1)
+    error = float(np.sqrt(noise * np.linalg.pinv(basis.T @ basis)[0, 0])) / slope
+    zero = _root(solution)
+    if zero is None:
+        return None
+    at_zero = float(np.polyval(solution[::-1], -strain[0]))
+    return _Start(zero + float(strain[0]), error, at_zero, float(np.abs(y).max()))
+
+
+def _root(solution: Reals) -> float | None:
+    """The zero of a polynomial next to 0, by Newton's method from there."""
+    value, slopes = np.polynomial.Polynomial(solution), np.polynomial.Polynomial(solution).deriv()
+    x = 0.0
+    for _ in range(20):
+        if slopes(x) <= 0:
+            return None
+        x -= float(value(x) / slopes(x))
+    return x if np.isfinite(x) else None
 
 
 class _Line(NamedTuple):

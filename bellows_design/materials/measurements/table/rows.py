@@ -27,7 +27,9 @@ SEPARATORS = {";": "semicolons", "\t": "tabs", "|": "bars", ",": "commas", SPACE
 """Those that come first are chosen where several separate the numbers of as many lines."""
 
 _COMMENT = re.compile(r"(?:^|(?<=\s))#(?=\s|$|[A-Za-z#])|^\s*#")
-_TWO_NUMBERS = re.compile(r"[-+.,\deE%\u2212]*\d[;|\t ]\s*[-+.,\deE%\u2212]*\d[-+.,\deE%\u2212;|\t ]*")
+_TWO_NUMBERS = re.compile(
+    r"[-+.,\deE%\u2212]*\d[;|\t ]\s*[-+.,\deE%\u2212]*\d[-+.,\deE%\u2212;|\t ]*"
+)
 _RANGE = re.compile(r"(\d{1,7})(?:(-)(\d{1,7})?)?", re.ASCII)
 
 
