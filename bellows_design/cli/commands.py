@@ -187,8 +187,9 @@ def fit(
     as_json: AsJson = False,
 ) -> None:
     """Fit a rubber's constants to measured nominal stress over strain."""
-    from bellows_design.cli.fit import MaterialOptions, ReadingOptions
+    from bellows_design.cli.fit import MaterialOptions
     from bellows_design.cli.fit import fit as fit_measurements
+    from bellows_design.materials.measurements.options import ReadingOptions
 
     def work() -> Answer:
         reading = ReadingOptions(

@@ -9,8 +9,8 @@ corrected information criterion
 s the relative error, K the free constants and the error, but no s below 1 %: no test is better.
 With few points its last term outweighs any error. Hence a model does not count whose error is more
 than the measurements allow: at least twice that of a larger stable model, and by the F test of
-their sums of squares by chance in less than one of a hundred such tests. Nor does one whose initial shear
-modulus the beginning of the tests contradicts, if there are others.
+their sums of squares by chance in less than one of a hundred such tests. Nor does one whose initial
+shear modulus the beginning of the tests contradicts, if there are others.
 Sources: K. P. Burnham and D. R. Anderson, Model Selection and Multimodel Inference, 2002; N. R.
 Draper and H. Smith, Applied Regression Analysis, 1998, section 6.1.
 """

@@ -120,6 +120,8 @@ def _in_steps(
             f"{series.place} has points in no order of strain: --branch {wanted} finds no branch."
         )
     restarts = [_restart(each, size) for each in returns]
+    if wanted is None and min(np.diff([0, *restarts, size.size])) < SHORTEST_BRANCH:
+        return [series], "a few points stand in no order of strain; all are used"
     timed = _times_restart(series, restarts)
     if wanted == "specimens" or (wanted is None and timed):
         parts = np.split(np.arange(size.size), restarts)
@@ -131,7 +133,7 @@ def _in_steps(
         raise DesignError(
             f"{series.where(restarts[0])}: the strain begins again after "
             f"{100 * size[restarts[0] - 1]:.3g} %; --branch specimens, --branch first or --branch "
-            "last tells whether these are specimens, or loadings of one."
+            "last tells whether these are specimens, or loadings of one; --branch all uses all."
         )
     return _chosen(series, found, size, wanted)
 

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from bellows_design.errors import DesignError
 from bellows_design.materials.measurements.table.header import STRESSES, Table
-from bellows_design.materials.measurements.table.headings import Heading
+from bellows_design.materials.measurements.table.headings import Heading, may_be
 from bellows_design.validation.quoting import did_you_mean, quoted
 from solver.material.homogeneous import MODES
 
@@ -41,6 +41,7 @@ def columns_of(table: Table) -> Columns:
     strains = _strains(table)
     stresses = _of_kind(table, STRESSES)
     pairs = _pairs(table, strains, stresses)
+    _require_no_rival(table, pairs[0])
     mode, specimen, time = (_only(table, name) for name in ("mode", "specimen", "time"))
     used = {*strains, *stresses, mode, specimen, time}
     _require_no_hidden_mode(table, [k for k in range(len(table.headings)) if k not in used])
@@ -49,7 +50,7 @@ def columns_of(table: Table) -> Columns:
 
 def _strains(table: Table) -> list[int]:
     """Columns of the strain: strain or stretch before extension."""
-    for k, each in enumerate(table.headings):
+    for each in table.headings:
         if each.quantity == "elongation":
             raise DesignError(
                 f"{table.named}: the column {quoted(each.text)} has no unit; "
@@ -93,11 +94,25 @@ def _pairs(table: Table, strains: list[int], stresses: list[int]) -> tuple[Pair,
     if alike and len(strains) == 1:
         return tuple(Pair(strains[0], each) for each in stresses)
     several = strains if len(strains) > 1 else stresses
-    names = ", ".join(f"{quoted(table.headings[k].text)} ({k + 1})" for k in several[:6])
-    first = table.headings[strains[0]].quantity, table.headings[stresses[0]].quantity
-    raise DesignError(
+    raise DesignError(_several(table, several, Pair(strains[0], stresses[0])))
+
+
+def _require_no_rival(table: Table, pair: Pair) -> None:
+    """Refuse to pass over a column that is not known but has the word for what is read."""
+    for chosen in pair:
+        quantity = table.headings[chosen].quantity or ""
+        unknown = [k for k, each in enumerate(table.headings) if each.quantity is None]
+        rivals = [k for k in unknown if may_be(table.headings[k].text, quantity)]
+        if rivals:
+            raise DesignError(_several(table, [chosen, *rivals], pair))
+
+
+def _several(table: Table, columns: Sequence[int], pair: Pair) -> str:
+    names = ", ".join(f"{quoted(table.headings[k].text)} ({k + 1})" for k in columns[:4])
+    strain, stress = (table.headings[k].quantity for k in pair)
+    return (
         f"{table.named} has several columns that may be meant, {names}; name those to read by "
-        f"their numbers, as in --columns {first[0]}={strains[0] + 1},{first[1]}={stresses[0] + 1}, "
+        f"their numbers, as in --columns {strain}={pair.strain + 1},{stress}={pair.stress + 1}, "
         "with a unit behind the name (strain_percent, stress_mpa)."
     )
 

@@ -68,31 +68,40 @@ def series_of(table: Table, columns: Columns, sheet: Sheet, place: str) -> list[
             where = f"{place} line {row.number}"
             label = f"{own} {row.cells[columns.specimen]}" if columns.specimen is not None else own
             values, percent = _values(row, pair, table, sheet, where)
-            time = sheet.number(row.cells[columns.time]) if _has(row, columns.time) else None
             key = (_mode(row, columns.mode, where), label.strip())
-            points.setdefault(key, []).append(
-                (*values, row.number, math.nan if time is None else time)
-            )
+            time = _time(row, columns.time, sheet)
+            points.setdefault(key, []).append((*values, row.number, time))
             percents.add(percent)
     if len(percents) > 1:
         raise DesignError(f"{place} has a sign of per cent behind some strains but not all.")
     return [
-        Series(place, mode, label, *np.array(rows, float).T, percent=True in percents)
+        _from_rows(place, mode, label, np.array(rows, float), True in percents)
         for (mode, label), rows in points.items()
     ]
+
+
+def _from_rows(place: str, mode: int, label: str, rows: Reals, percent: bool) -> Series:
+    strain, stress, lines, time = rows.T
+    return Series(place, mode, label, strain, stress, lines, time, percent)
+
+
+def _time(row: Row, column: int | None, sheet: Sheet) -> float:
+    """NaN without one."""
+    if column is None or column >= len(row.cells):
+        return math.nan
+    value = sheet.number(row.cells[column])
+    return math.nan if value is None else value
 
 
 def _rows(table: Table, columns: Columns, pair: Pair, place: str) -> Iterator[Row]:
     """Rows in which the pair has numbers; of several pairs the shorter ones end early."""
     width = len(table.headings)
-    needed = max(pair, default=0)
     needed = max(k for k in (*pair, columns.mode, columns.specimen) if k is not None)
     for row in table.rows:
-        if len(columns.pairs) > 1 and not (_has(row, pair.strain) and _has(row, pair.stress)):
-            if not _has(row, pair.stress) and (
-                not _has(row, pair.strain) or _shared(columns, pair.strain)
-            ):
-                continue
+        shared = _shared(columns, pair.strain)
+        ended = not _has(row, pair.stress) and (shared or not _has(row, pair.strain))
+        if ended and len(columns.pairs) > 1:
+            continue
         if len(row.cells) > width or len(row.cells) <= needed:
             raise DesignError(_of_other_length(row, table, place))
         yield row

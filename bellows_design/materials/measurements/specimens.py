@@ -63,6 +63,6 @@ def _note(
     return (
         f"{len(curves)} specimens in {list(MODES)[first.mode]} tests: their mean is fitted, over "
         f"strains all of them reach ({100 * (grid[0] - 1):.3g} … {100 * (grid[-1] - 1):.3g} %); at "
-        f"{100 * (grid[far] - 1):.3g} % it is {mean[far]:.4g} ± {spread[far]:.2g} MPa, the standard "
-        f"deviation of a specimen is {100 * float(np.median(relative)):.2g} % in the median"
+        f"{100 * (grid[far] - 1):.3g} % it is {mean[far]:.4g} ± {spread[far]:.2g} MPa; the "
+        f"standard deviation of a specimen is {100 * float(np.median(relative)):.2g} % (median)"
     )

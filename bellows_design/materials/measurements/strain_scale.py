@@ -1,9 +1,9 @@
 """Whether strains without a unit are fractions or per cent: by physics, or it is asked.
 
-A test of an elastomer that ends below 0.3 % tells nothing, so smaller numbers are fractions. Beyond,
-each reading must give an initial modulus that an elastomer can have. Where both do, the curve
-decides for fractions if it bends as rubber does over such strains but cannot within so many per
-cent; where it does not, the reading is asked for. Per cent are never assumed from the bend alone.
+A test of an elastomer that ends below 0.3 % tells nothing, so smaller numbers are fractions.
+Beyond, each reading must give an initial modulus that an elastomer can have. Where both do, the
+curve decides for fractions if it bends as rubber does over such strains but cannot within so many
+per cent; where it does not, the reading is asked for. Per cent are never assumed from the bend.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ LARGEST_FRACTION = 19.0
 SMALLEST_TEST = 0.3
 """Per cent. No test of an elastomer ends below."""
 
-MOST_BEND = 4.0
+MOST_BEND = 3.0
 """Relative fall of the secant modulus for each unit of strain that no elastomer exceeds at once.
 The measured NinjaFlex has 1.2 over the first 15 %, neo-Hookean rubber 1."""
 
@@ -55,7 +55,7 @@ def bend_of(strain: Reals, stress: Reals) -> Bend:
     """The bend of a curve, from points with at least 5 % of the largest stress, noise smoothed."""
     order = np.argsort(np.abs(strain), kind="stable")
     size, load = np.abs(strain[order]), np.abs(stress[order])
-    kept = (size > 0) & (load >= 0.05 * load.max(initial=0.0))
+    kept = (size > 0) & (load > 0) & (load >= 0.05 * load.max(initial=0.0))
     if not kept.any():
         return Bend(0.0, 1.0, 1.0)
     secant = _smoothed(load[kept] / size[kept])

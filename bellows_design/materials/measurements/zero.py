@@ -193,7 +193,7 @@ def _parabola(strain: Reals, stress: Reals) -> _Start | None:
         return None
     noise = float(left @ left) / max(x.size - degree - 1, 1)
     error = float(np.sqrt(noise * np.linalg.pinv(basis.T @ basis)[0, 0])) / slope
-    zero = _root(solution)
+    zero = _root(np.asarray(solution, float))
     if zero is None:
         return None
     at_zero = float(np.polyval(solution[::-1], -strain[0]))

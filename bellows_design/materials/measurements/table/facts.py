@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from bellows_design.materials.measurements.table.rows import Row, Sheet
 from bellows_design.materials.measurements.table.units import AREA, LENGTH, plain_unit
@@ -46,7 +46,7 @@ def _fact(cells: Sequence[str], sheet: Sheet) -> tuple[str | None, float | None]
     return fact, value * factor if usable and value and factor else None
 
 
-def initial_area(known: dict[str, tuple[float, ...]]) -> float | None:
+def initial_area(known: Mapping[str, tuple[float, ...]]) -> float | None:
     """The initial area, mm², if the lines above the table give one and no other."""
     sizes = {round(size, 9) for size in known.get("area", ())}
     widths, thicknesses = known.get("width", ()), known.get("thickness", ())

@@ -44,6 +44,7 @@ _TRUE = {
     "strain": "true log logarithmic hencky wahre natural",
     "stress": "true cauchy wahre",
 }
+_OF_SOMETHING_ELSE = {"rate", "speed", "max", "maximum", "min", "break", "yield", "energy", "cell"}
 _COMPRESSED = {"compressive", "compression"}
 _BRACKETS = re.compile(r"[\[({<]([^\[\](){}<>]*)[\])}>]")
 _LONGEST_NAME = 100
@@ -80,6 +81,12 @@ def heading(text: str) -> Heading:
         if found is not None and (trailing is None or unit is None):
             return found
     return Heading(text, None, unit)
+
+
+def may_be(text: str, quantity: str) -> bool:
+    """True if a name that is not known has a word for the quantity, and none for its rate."""
+    words = {word for word in re.split(r"[\W\d_]+", text[:_LONGEST_NAME].lower()) if word}
+    return not words & _OF_SOMETHING_ELSE and any(_BASE.get(word) == quantity for word in words)
 
 
 def _without_brackets(name: str) -> tuple[str, str | None]:
