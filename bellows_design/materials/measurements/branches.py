@@ -50,8 +50,8 @@ def _turns(strain: list[float], threshold: float) -> tuple[list[int], bool]:
     high = low = 0
     direction = first = 0
     for k, value in enumerate(strain):
-        high = k if value >= strain[high] else high
-        low = k if value <= strain[low] else low
+        high = k if value > strain[high] else high
+        low = k if value < strain[low] else low
         if direction >= 0 and value < strain[high] - threshold:
             if direction > 0 or high > 0:
                 turns.append(high + 1)
