@@ -44,7 +44,7 @@ MOST_HIGHER = 4
 """Of Yeoh's higher terms; more would only fit the noise."""
 
 _R_SQUARED = re.compile(
-    r"R(?:²|\^?2)\s*[=:]?\s*(?:of\s+)?([-\u2212]?\d{1,9}(?:\.\d{1,9})?)", re.ASCII
+    r"\bR(?:²|\^?2)(?:\s*[=:]\s*|\s+)(?:of\s+)?([-\u2212]?\d{1,9}(?:\.\d{1,9})?)", re.ASCII
 )
 """A coefficient of determination that a source states."""
 

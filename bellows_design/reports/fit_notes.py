@@ -12,6 +12,9 @@ from solver.material.stability import HIGHEST
 POOR = 0.1
 """Relative error from which on a fit is called poor."""
 
+SAME_ERROR = 1.25
+"""Ratio of errors up to which models follow the measurements about as well."""
+
 MODULUS_NOTED = 3.0
 """%. Difference from the initial shear modulus that the beginning of the tests tells."""
 
@@ -20,7 +23,8 @@ def fit_notes(data: Measurements, choice: Choice) -> tuple[str, ...]:
     """Sentences on errors, idle terms, undetermined constants, instability, and the choice."""
     fit = choice.fit
     notes = (
-        *(_poor(fit), _off_at_first(data, fit), _criteria(choice), _unstable_but_better(choice)),
+        *(_poor(fit), _off_at_first(data, fit), _open_modulus(choice)),
+        *(_criteria(choice), _unstable_but_better(choice)),
         *(_idle(fit), _open(fit), _ambiguous(data, fit), _unstable(fit), _one_test(data)),
     )
     return (*(note for note in notes if note), *_falling(fit))
@@ -59,6 +63,21 @@ def _off_at_first(data: Measurements, fit: Fit) -> str | None:
         f"the initial shear modulus of the fit is {modulus:.4g} MPa, that of the beginning of the "
         f"tests {start.value:.4g} ± {2 * start.error:.2g} MPa: the model misses small strains by "
         f"{100 * abs(modulus / start.value - 1):.0f} %."
+    )
+
+
+def _open_modulus(choice: Choice) -> str | None:
+    """How far models that follow the tests about as well differ at small strains."""
+    fit = choice.fit
+    bound = SAME_ERROR * max(fit.relative_error, BEST_ERROR)
+    alike = [each for each in choice.tried if each.stable and each.relative_error <= bound]
+    moduli = [each.stability.shear_modulus for each in (*alike, fit)]
+    low, high = min(moduli), max(moduli)
+    if high <= (1 + MODULUS_NOTED / 100) * low:
+        return None
+    return (
+        "models that follow the measurements about as well have initial shear moduli from "
+        f"{low:.4g} to {high:.4g} MPa: more points at small strains would tell."
     )
 
 

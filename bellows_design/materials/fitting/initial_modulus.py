@@ -13,11 +13,11 @@ import numpy as np
 
 from bellows_design.materials.measurements.points import Measurements
 from solver.arrays import Reals
-from solver.material.homogeneous import MODES, nominal_stress
+from solver.material.homogeneous import MODES, UNIAXIAL, nominal_stress
 from solver.material.ogden import packed
 
 REACH = 0.4
-"""Log stretch up to which points count."""
+"""Log stretch up to which points of uniaxial tests count; of others as far as they shear as much."""
 
 FEWEST_POINTS = 8
 
@@ -55,8 +55,9 @@ def initial_modulus(data: Measurements) -> InitialModulus | None:
 def _of_mode(data: Measurements, mode: str) -> InitialModulus | None:
     stretch, stress = data.of(mode)
     logs = np.log(stretch)
-    near = (np.abs(logs) <= REACH) & (logs != 0)
-    if near.sum() < FEWEST_POINTS or np.abs(logs[near]).min() > REACH / 5:
+    reach = REACH * UNIAXIAL.gap / MODES[mode].gap
+    near = (np.abs(logs) <= reach) & (logs != 0)
+    if near.sum() < FEWEST_POINTS or np.abs(logs[near]).min() > reach / 5:
         return None
     unit = nominal_stress(MODES[mode], stretch[near], packed([1.0], [2.0]))
     return _extrapolated(logs[near], stress[near] / unit, np.abs(unit))
