@@ -17,7 +17,7 @@ from solver.material.homogeneous import MODES, UNIAXIAL, nominal_stress
 from solver.material.ogden import packed
 
 REACH = 0.4
-"""Log stretch up to which points of uniaxial tests count; of others as far as they shear as much."""
+"""Log stretch up to which points of uniaxial tests count; of others while they shear as much."""
 
 FEWEST_POINTS = 8
 

@@ -91,7 +91,9 @@ def test_the_material_file_serves_a_design(data: Path, tmp_path: Path) -> None:
 def test_a_material_needs_a_yield_strength(data: Path, tmp_path: Path) -> None:
     assert "--yield-strength" in refusal(data, material=MaterialOptions(tmp_path / "m.toml"))
     for value in (-1.0, 4000.0, float("nan"), float("inf")):
-        assert "between 0.01 and 200 MPa" in refusal(data, material=MaterialOptions(yield_strength=value))
+        assert "between 0.01 and 200 MPa" in refusal(
+            data, material=MaterialOptions(yield_strength=value)
+        )
     assert list(tmp_path.glob("*.toml")) == []
 
 

@@ -142,19 +142,19 @@ def test_five_points_do_not_choose_a_model_that_misses_them(seed: int) -> None:
     assert choice.fit.stability.shear_modulus == pytest.approx(SHEAR, rel=0.06)
 
 
-@pytest.mark.parametrize("points", [5, 6, 8, 12, 30])
+@pytest.mark.parametrize("points", [5, 8, 30])
 def test_where_the_smallest_model_is_the_truth_it_is_chosen_whatever_the_number_of_points(
     points: int,
 ) -> None:
     from solver.material.ogden import packed
 
     hits = 0
-    for seed in range(10):
+    for seed in range(5):
         strain, stress = curve(1.5, points, packed([0.7], [2.0]), seed, noise=0.03)
         data = Measurements("few", 1 + strain, stress, np.zeros(points, np.intp))
         choice = fit(data)
         hits += choice.fit.model == "neo-hooke" and choice.by_criterion is None
-    assert hits >= 8
+    assert hits >= 4
 
 
 def test_the_reported_break_makes_no_poor_material() -> None:

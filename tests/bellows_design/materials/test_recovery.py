@@ -45,22 +45,29 @@ def written(form: str, law: Constants, seed: int) -> tuple[bytes, ReadingOptions
         case "fractions":
             text = table("strain,stress_mpa", strain, stress)
         case "percent":
-            text = table("Time (s)\tStrain (%)\tStress (MPa)", strain, 100 * strain, stress, separator="\t")
+            text = table(
+                "Time (s)\tStrain (%)\tStress (MPa)", strain, 100 * strain, stress, separator="\t"
+            )
         case "machine":
             head = "Probe;S1\nBreite (mm);6\nDicke (mm);1,25\n;;\nDehnung;Kraft\n%;N"
             text = table(head, 100 * strain, 7.5 * stress, separator=";", decimal=",", ending=";")
         case "psi":
-            text, options = table("", 1 + strain, 145.03774 * stress), ReadingOptions(
-                columns="stretch,stress_psi"
+            text, options = (
+                table("", 1 + strain, 145.03774 * stress),
+                ReadingOptions(columns="stretch,stress_psi"),
             )
         case "cyclic":
             back = slice(None, None, -2)
             loading, load = np.append(strain, strain[back]), np.append(stress, 0.8 * stress[back])
-            text = table("strain [-],stress [kPa]", np.tile(loading, 2), 1e3 * np.append(load, 0.8 * load))
+            text = table(
+                "strain [-],stress [kPa]", np.tile(loading, 2), 1e3 * np.append(load, 0.8 * load)
+            )
         case _:
             broken = np.append(strain, [2.01, 2.02]), np.append(stress, [0.1, 0.0])
-            text = table("True strain;Stress (N/mm²)", np.log1p(broken[0]), broken[1], separator=";")
-    return text.encode("utf-16" if form == "utf-16" else "utf-8"), options  # fmt: skip
+            text = table(
+                "True strain;Stress (N/mm²)", np.log1p(broken[0]), broken[1], separator=";"
+            )
+    return text.encode("utf-16" if form == "utf-16" else "utf-8"), options
 
 
 def recovered(folder: Path, law: str, form: str, seed: int = 0) -> float | None:

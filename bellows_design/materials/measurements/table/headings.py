@@ -46,6 +46,9 @@ _TRUE = {
 }
 _OF_SOMETHING_ELSE = {"rate", "speed", "max", "maximum", "min", "break", "yield", "energy", "cell"}
 _COMPRESSED = {"compressive", "compression"}
+_NO_ENDINGS = ("1", "-")
+"""Units that are none without brackets: ``Strain 1`` is the first of several."""
+
 _BRACKETS = re.compile(r"[\[({<]([^\[\](){}<>]*)[\])}>]")
 _LONGEST_NAME = 100
 
@@ -106,12 +109,12 @@ def _kept(inner: str) -> str:
 
 def _readings(name: str) -> list[tuple[str, str | None]]:
     """(name, unit) in every way in which the end of a name may be a unit."""
-    results: list[tuple[str, str | None]] = [(name, None)]
+    results: list[tuple[str, str | None]] = []
     for found in re.finditer(r"[\s_,/]+(?:in[\s_]+)?|(?=%)", name):
         rest, unit = name[: found.start()], plain_unit(name[found.end() :])
-        if unit in ALL:
+        if unit in ALL and unit not in _NO_ENDINGS:
             results.append((rest, unit))
-    return results
+    return [*results, (name, None)]
 
 
 def _known(text: str, name: str, unit: str | None) -> Heading | None:

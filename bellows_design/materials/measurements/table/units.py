@@ -23,8 +23,8 @@ LENGTH = {
     **dict.fromkeys(("in", "inch", "inches"), 25.4),
 }
 STRAIN = {
-    **dict.fromkeys(("%", "percent", "pct", "prozent", "pourcent"), 1e-2),
-    **dict.fromkeys(("-", "1", "mm/mm", "m/m", "in/in", "cm/cm", "fraction", "ratio"), 1.0),
+    "%": 1e-2,
+    **dict.fromkeys(("-", "1", "mm/mm", "m/m", "in/in", "cm/cm", "fraction"), 1.0),
     **dict.fromkeys(("‰", "mm/m"), 1e-3),
     **dict.fromkeys(("µε", "µm/m", "um/m", "microstrain"), 1e-6),
 }
@@ -44,6 +44,8 @@ UNITS = {
 
 ALL = frozenset().union(STRESS, FORCE, LENGTH, STRAIN, AREA, TIME, OTHER)
 
+_PERCENT = ("percent", "percentage", "pct", "prozent", "pourcent")
+
 _SPELLED = (
     *("MPa", "kPa", "Pa", "GPa", "N/mm²", "MN/m²", "kN/m²", "N/m²", "N/cm²", "kN/mm²", "kgf/cm²"),
     *("kg/cm²", "kp/cm²", "kgf/mm²", "kg/mm²", "kp/mm²", "N", "kN", "mN", "cN", "mm²", "cm²"),
@@ -54,7 +56,8 @@ def plain_unit(text: str) -> str:
     """A unit as the tables here spell it: ``N/mm²`` and ``N / mm^2`` are ``n/mm2``."""
     lowered = text.strip().lower().replace("²", "2").replace("\u03bc", "µ")
     joined = re.sub(r"[\s^*·]+", "", lowered)
-    return re.sub(r"^sqin|(?<=/)sqin", "in2", joined)
+    spelled = "%" if joined in _PERCENT else joined
+    return re.sub(r"^sqin|(?<=/)sqin", "in2", spelled)
 
 
 def shown_unit(plain: str) -> str:

@@ -134,7 +134,7 @@ def test_a_preload_beyond_belief_is_asked_about() -> None:
         read((1 + line) / 1.2 - 1, stress)
 
 
-@pytest.mark.parametrize("seed", range(20))
+@pytest.mark.parametrize("seed", range(8))
 def test_sound_tests_are_neither_shifted_nor_cut(seed: int) -> None:
     for reach in (0.3, 1.0, 3.0):
         for start in (0.0, 0.02):

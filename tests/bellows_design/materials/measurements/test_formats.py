@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import random
 from pathlib import Path
 
 import numpy as np
 import pytest
+from damage import mutated
+from refusals import refused_in_sentences
 from tensile import SHEAR, curve, table
 
 from bellows_design.errors import DesignError
@@ -66,12 +69,8 @@ READ = {
     ),
     "units-behind": table("Strain in %,Stress / MPa", PERCENT, STRESS),
     "french": table("Déformation (%),Contrainte (MPa)", PERCENT, STRESS),
-    "qualified": table(
-        "Tensile strain (Extension) (mm/mm),Tensile stress (MPa)", STRAIN, STRESS
-    ),
-    "force": table(
-        PREAMBLE + "Dehnung (%);Kraft (N);", PERCENT, FORCE, separator=";", decimal=","
-    ),
+    "qualified": table("Tensile strain (Extension) (mm/mm),Tensile stress (MPa)", STRAIN, STRESS),
+    "force": table(PREAMBLE + "Dehnung (%);Kraft (N);", PERCENT, FORCE, separator=";", decimal=","),
     "extension": table(
         PREAMBLE + "Weg (mm);Kraft (kN)", 20 * STRAIN, FORCE / 1e3, separator=";", decimal=","
     ),
@@ -125,7 +124,13 @@ def test_encodings_and_line_ends_make_no_difference(
     [
         *[("MPa", 1), ("kPa", 1e3), ("Pa", 1e6), ("N/mm²", 1), ("N/mm^2", 1), ("GPa", 1e-3)],
         *[("psi", 145.03774), ("ksi", 0.14503774), ("kgf/cm²", 10.197162), ("kg/cm2", 10.197162)],
-        *[("bar", 10), ("N/cm²", 100), ("MN/m²", 1), ("kgf/mm²", 0.10197162), ("lbf/in²", 145.03774)],
+        *[
+            ("bar", 10),
+            ("N/cm²", 100),
+            ("MN/m²", 1),
+            ("kgf/mm²", 0.10197162),
+            ("lbf/in²", 145.03774),
+        ],
     ],
 )
 def test_units_of_stress_come_from_the_header_or_the_option(
@@ -139,6 +144,12 @@ def test_units_of_stress_come_from_the_header_or_the_option(
     holds_the_test(read(tmp_path, wrong, ReadingOptions(units=f"stress={unit}")))
     assert "--units stress=UNIT" in refusal(tmp_path, bare)
 
+
+BOTH = "Area: 7.5 mm²\nStrain [-],Force [N],Stress [MPa]"
+GERMAN_THOUSANDS = "strain [-];stress [kPa]\n" + "".join(
+    f"{strain:.7f};{1e3 * stress:,.3f}\n".replace(".", "@").replace(",", ".").replace("@", ",")
+    for strain, stress in zip(STRAIN, STRESS, strict=True)
+)
 
 ASKED = {
     "no-header": (table("", 1 + STRAIN, STRESS), "--columns stretch,stress_mpa", TOLD),
@@ -188,17 +199,16 @@ ASKED = {
         ReadingOptions(skip="62-"),
     ),
     "thousands-or-decimals": (
-        table("strain [-];stress [kPa]", STRAIN, [f"{each:,.3f}" for each in STRESS * 1e3], separator=";")
-        .replace(".", "@").replace(",", ".").replace("@", ","),
+        GERMAN_THOUSANDS,
         None,
         ReadingOptions(decimal="comma"),
     ),
     "true-stress-by-force": (
-        table("Area: 7.5 mm²\nStrain [-],Force [N],Stress [MPa]", STRAIN, FORCE, STRESS * (1 + STRAIN)),
+        table(BOTH, STRAIN, FORCE, STRESS * (1 + STRAIN)),
         "--true-stress",
         ReadingOptions(true_stress=True),
     ),
-}  # fmt: skip
+}
 """Name -> (a form that is open, words of the question, the options that answer it)."""
 
 
@@ -287,6 +297,17 @@ def test_options_that_make_no_sense_are_refused_in_one_sentence(
 def test_values_of_options_are_bounded(values: dict[str, object]) -> None:
     with pytest.raises(DesignError, match="--"):
         ReadingOptions(**values)  # type: ignore[arg-type]
+
+
+def test_a_damaged_file_is_read_or_refused_in_one_sentence(tmp_path: Path) -> None:
+    chance = random.Random("machines")
+    path = tmp_path / "it.csv"
+    refused = 0
+    for _ in range(6):
+        for text in READ.values():
+            path.write_bytes(mutated(text.encode(), chance))
+            refused += refused_in_sentences(lambda: load_measurements(path))
+    assert 40 < refused < 6 * len(READ)
 
 
 def test_several_separate_files_are_specimens(tmp_path: Path) -> None:

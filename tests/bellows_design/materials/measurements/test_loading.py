@@ -92,7 +92,10 @@ GOOD = "\n".join(f"{x},{y}" for x, y in ROWS)
         (table(rows=GOOD + "\n٣,2"), "stretch is “٣” but must be a number"),
         (table(rows=GOOD + "\n0x1,2"), "must be a number"),
         (table(rows=GOOD + "\n__import__('os'),2"), "must be a number"),
-        (table(rows=GOOD + "\n0,-1"), "line 7: stretch is a stretch of 0 but must lie between 0.05"),
+        (
+            table(rows=GOOD + "\n0,-1"),
+            "line 7: stretch is a stretch of 0 but must lie between 0.05",
+        ),
         (table(rows=GOOD + "\n-1.5,-1"), "is a stretch of -1.5 but must lie between 0.05 and 20"),
         (table("strain [-],stress_mpa", GOOD + "\n100,1.2"), "as strain from -0.95 to 19"),
         (table("strain [-],stress_mpa", GOOD + "\n100,1.2"), "--units tells it"),

@@ -96,4 +96,6 @@ def test_stress_that_never_bends_gets_a_hint_of_true_stress() -> None:
     text = table("strain [-],stress_mpa", strain, stress * (1 + strain))
     hints = parse_measurements(text, "it", options=as_it_is).reading.hints
     assert any("--true-stress" in hint for hint in hints)
-    assert parse_measurements(table("strain [-],stress_mpa", strain, stress), "it").reading.hints == ()
+    assert (
+        parse_measurements(table("strain [-],stress_mpa", strain, stress), "it").reading.hints == ()
+    )
