@@ -221,9 +221,10 @@ def _hints(series: Sequence[Series]) -> tuple[str, ...]:
     hints = []
     if any(_never_bends(each.strain - 1, each.stress) for each in series if each.mode == 0):
         hints.append(
-            "the stress keeps rising as steeply as at first, as true stress does and nominal "
-            "stress of elastomers seldom: if it is force over present area, --true-stress turns "
-            "it into nominal stress"
+            "the stress keeps rising nearly as steeply as at first, as nominal stress of "
+            "elastomers seldom does over such strains: if it is force over present area, "
+            "--true-stress turns it into nominal stress; if strains are in per cent, --units "
+            "strain=% says so"
         )
     for shear in map(_shear, series):
         if shear and not USUAL[0] <= shear <= USUAL[1]:
@@ -242,4 +243,5 @@ def _never_bends(strain: Reals, stress: Reals) -> bool:
     order = np.argsort(strain[inside], kind="stable")
     secant = (stress[inside] / strain[inside])[order]
     first = np.median(secant[:3])
-    return bool(np.median(secant[-3:]) > 0.9 * first and secant.min() > 0.8 * first)
+    as_true_stress = np.median(secant[-3:]) > 0.9 * first and secant.min() > 0.8 * first
+    return bool(as_true_stress or (reach > 1.5 and bend_of(strain, stress).fall > 0.75))

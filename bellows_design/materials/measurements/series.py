@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from bisect import bisect
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
@@ -66,7 +67,9 @@ def series_of(table: Table, columns: Columns, sheet: Sheet, place: str) -> list[
         own = str(count) if len(columns.pairs) > 1 else ""
         for row in _rows(table, columns, pair, place):
             where = f"{place} line {row.number}"
+            block = bisect(table.repeats, row.number)
             label = f"{own} {row.cells[columns.specimen]}" if columns.specimen is not None else own
+            label = f"{label} {block + 1}" if table.repeats else label
             values, percent = _values(row, pair, table, sheet, where)
             key = (_mode(row, columns.mode, where), label.strip())
             time = _time(row, columns.time, sheet)

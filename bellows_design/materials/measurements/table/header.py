@@ -31,6 +31,7 @@ class Table:
         named: Place and line of the names, for messages.
         facts: What lines above say of the specimen, see ``facts``.
         notes: How the columns were found.
+        repeats: Lines in which the names stand again, each for a new specimen.
     """
 
     headings: tuple[Heading, ...]
@@ -38,6 +39,7 @@ class Table:
     named: str
     facts: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
+    repeats: tuple[int, ...] = ()
 
 
 def table_of(sheet: Sheet, place: str, options: ReadingOptions) -> Table:
@@ -64,15 +66,40 @@ def _with_header(sheet: Sheet, place: str) -> Table:
 
 def _below(sheet: Sheet, index: int, headings: tuple[Heading, ...], named: str) -> Table:
     """The table below the names in that row, with the units of the next row if it has some."""
-    rest, notes = sheet.rows[index + 1 :], []
+    rest, notes, units = sheet.rows[index + 1 :], [], None
     if rest and _are_units(rest[0].cells):
-        headings = _in_units(headings, rest[0].cells)
+        units = rest[0].cells
+        headings = _in_units(headings, units)
         notes.append(f"units are those of line {rest[0].number}")
         rest = rest[1:]
+    kept, repeats = _without_repeats(sheet, rest, sheet.rows[index].cells, units)
     above = sheet.rows[:index]
     if above:
         notes.append(f"{_lines(above)} above the names of the columns {_are(above)} no data")
-    return Table(headings, rest, named, facts(above, sheet), tuple(notes))
+    lines = {row.number for row in kept}
+    between = [row for row in rest if row.number not in lines]
+    known = facts((*above, *between), sheet)
+    return Table(headings, kept, named, known, tuple(notes), repeats)
+
+
+def _without_repeats(
+    sheet: Sheet, rows: tuple[Row, ...], names: Sequence[str], units: Sequence[str] | None
+) -> tuple[tuple[Row, ...], tuple[int, ...]]:
+    """The rows without those that repeat names and units, and what stands right above them.
+
+    Only what holds no numbers is passed over; the second are the lines of the repeated names.
+    """
+    places = [k for k, row in enumerate(rows) if row.cells == names]
+    dropped = set(places)
+    for place in places:
+        if units is not None and rows[place + 1 : place + 2] and rows[place + 1].cells == units:
+            dropped.add(place + 1)
+        above = place - 1
+        while above >= 0 and sheet.numbers_in(rows[above]) < 2 and above not in dropped:
+            dropped.add(above)
+            above -= 1
+    kept = tuple(row for k, row in enumerate(rows) if k not in dropped)
+    return kept, tuple(rows[k].number for k in places)
 
 
 def _as_told(sheet: Sheet, place: str, text: str) -> Table:

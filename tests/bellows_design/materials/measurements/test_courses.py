@@ -177,6 +177,25 @@ def test_specimens_in_a_column_or_below_each_other_with_times_are_told_apart() -
     of_three(read(np.tile(np.arange(60.0), 3), *STACKED, header=f"time [s],{HEADER}"))
 
 
+def test_tables_below_each_other_with_names_of_their_own_are_specimens() -> None:
+    blocks = [
+        f"Specimen {k + 1}\n" + table("Strain,Stress\n(%),(MPa)", 100 * strain, stress)
+        for k, (strain, stress) in enumerate(SPECIMENS)
+    ]
+    of_three(parse_measurements("\n".join(blocks), "it"))
+
+
+def test_areas_that_differ_from_specimen_to_specimen_are_asked_about() -> None:
+    blocks = [
+        f"Area: {area} mm²\n" + table("Strain [-],Force [N]", strain, stress * area)
+        for area, (strain, stress) in zip((7.5, 7.5, 9.0), SPECIMENS, strict=True)
+    ]
+    data = parse_measurements("\n".join(blocks[:2]), "it")
+    assert said(data, "over the initial area of 7.5 mm²") and said(data, "2 specimens")
+    with pytest.raises(DesignError, match="--area MM2"):
+        parse_measurements("\n".join(blocks), "it")
+
+
 def test_returns_without_a_way_back_are_asked_about() -> None:
     with pytest.raises(DesignError, match="--branch specimens, --branch first or --branch last"):
         read(*STACKED)
