@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from rich.box import SIMPLE
 from rich.console import RenderableType
 from rich.table import Table
@@ -175,7 +176,14 @@ def _test(data: Measurements, mode: str) -> dict[str, Any]:
         "stretch": [low, high],
         "strain": [low - 1, high - 1],
         "largest_stress_mpa": float(abs(stress).max()),
+        "spread_mpa": _spread(data, mode),
     }
+
+
+def _spread(data: Measurements, mode: str) -> float | None:
+    """Median standard deviation of the specimens of a test, MPa; None where it has only one."""
+    spread = None if data.spread is None else data.spread[data.chosen(mode)]
+    return float(np.median(spread)) if spread is not None and spread.any() else None
 
 
 def _reading(data: Measurements) -> dict[str, Any]:
