@@ -1,6 +1,6 @@
 """Tests that go to and fro: which branch of them is read.
 
-A turn is where the strain goes back by more than 5 % of its range. Loading for the first time is
+A turn is where the strain goes back by more than 2.5 % of its range. Loading for the first time is
 the default: the stress of a part that was never strained before. It runs along all loadings as far
 as each goes beyond the earlier ones.
 """
@@ -16,7 +16,7 @@ from bellows_design.errors import DesignError
 from bellows_design.materials.measurements.series import Series
 from solver.arrays import Reals
 
-TURN = 0.05
+TURN = 0.025
 """Part of the range of strain that a branch has at least."""
 
 SHORTEST_BRANCH = 4

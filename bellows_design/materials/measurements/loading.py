@@ -17,7 +17,7 @@ import numpy as np
 from bellows_design.errors import DesignError
 from bellows_design.materials.bounds import SOFTEST, STIFFEST
 from bellows_design.materials.measurements.branches import on_one_branch
-from bellows_design.materials.measurements.breaks import before_break
+from bellows_design.materials.measurements.breaks import before_break, without_holds
 from bellows_design.materials.measurements.columns import columns_of
 from bellows_design.materials.measurements.conversion import converted
 from bellows_design.materials.measurements.crosscheck import checked_by_force
@@ -131,6 +131,8 @@ def _prepared(series: Series, options: ReadingOptions) -> tuple[Series, list[str
     """Without points after break, its strain from zero; and what was done."""
     notes = []
     if "break" not in options.keep:
+        series, note = without_holds(series)
+        notes += [note] if note else []
         parts = []
         for mask in (series.strain < 1, series.strain >= 1):
             part, note = before_break(series.at(mask)) if mask.any() else (series.at(mask), None)

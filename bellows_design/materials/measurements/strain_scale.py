@@ -85,7 +85,7 @@ def percent_or_fraction(
     )
     if fraction and not percent:
         return 1.0, f"{name} is read as a fraction: per cent would be {100 * shear:.3g} MPa stiff"
-    if percent and not fraction:
+    if percent and not fraction and not bend.is_of_rubber(reach):
         return 0.01, (
             f"{name} is read as per cent: as fractions, up to {reach:.3g}, no elastomer has them "
             f"({rise})"

@@ -42,6 +42,9 @@ LEAST_TOE, LEAST_PRELOAD = 0.005, 0.05
 MOST, MOST_SLACK = 0.06, 0.5
 """Strain. A larger preload, or slack, is something else."""
 
+AT_ZERO, MEASURED = 1e-5, 0.005
+"""Strain that counts as zero, and part of the largest stress that is none there."""
+
 NEAR = 0.1
 """Strain within which the curve is continued to zero."""
 
@@ -60,6 +63,7 @@ def from_zero(series: Series) -> tuple[Series, str | None]:
 
     ``series.strain`` is a stretch. Raises ``DesignError`` where the shift would be too large.
     """
+    _require_bend_of_compression(series)
     order = np.argsort(series.strain, kind="stable")
     strain, stress = series.strain[order] - 1, series.stress[order]
     if strain.size < FEWEST_POINTS or strain[0] < -0.02:
@@ -87,6 +91,24 @@ def _require_near_zero(series: Series, strain: Reals, stress: Reals) -> None:
     begin = _line(strain[:6], stress[:6])
     if strain[0] > FAR and begin.slope > 0 and begin.zero > 0.7 * strain[0]:
         raise DesignError(_too_far(series, begin.zero))
+
+
+def _require_bend_of_compression(series: Series) -> None:
+    """Refuse compression that flattens: it is tension with signs turned."""
+    strain, stress = 1 - series.strain, -series.stress
+    if strain.size < FEWEST_POINTS or strain.min() < 0 or strain.max() < 0.2:
+        return
+    beginning, end = strain < 0.1 * strain.max() + 0.05, strain > 0.8 * strain.max()
+    used = beginning & (strain > 0)
+    if used.sum() < 2 or end.sum() < 2:
+        return
+    first, last = (np.median(stress[each] / strain[each]) for each in (used, end))
+    if 0 < last < 0.95 * first:
+        raise DesignError(
+            f"{series.place}: the stress of compression rises ever more steeply, but this one "
+            "flattens: are these tension with the signs turned? Give tension as positive; "
+            "--keep zero takes strain and stress as they are."
+        )
 
 
 def _require_bend(series: Series, strain: Reals, stress: Reals) -> None:
@@ -135,8 +157,8 @@ def _preload(strain: Reals, stress: Reals) -> _Shift | None:
     start = _parabola(strain, stress)
     if start is None or strain[0] > NEAR / 5:
         return None
-    slope = start.stress / -start.zero if start.zero else np.inf
-    if abs(start.stress) < max(CERTAIN * start.error * abs(slope), LEAST_PRELOAD * start.top):
+    least = max(CERTAIN * start.error * start.slope, LEAST_PRELOAD * start.top)
+    if abs(start.stress) < least and not _measured(strain, stress):
         return None
     what = "a preload" if start.stress > 0 else "slack"
     return _Shift(
@@ -145,6 +167,12 @@ def _preload(strain: Reals, stress: Reals) -> _Shift | None:
         max(start.zero, -1.0) if start.stress < 0 else -1.0,
         f"the stress at zero strain is {start.stress:.3g} MPa, taken for {what}",
     )
+
+
+def _measured(strain: Reals, stress: Reals) -> bool:
+    """True if points at zero strain show that the stress is not zero there."""
+    at_zero = stress[np.abs(strain) < AT_ZERO]
+    return bool(at_zero.size and abs(np.median(at_zero)) > MEASURED * np.abs(stress).max())
 
 
 def _tangents(strain: Reals, stress: Reals) -> list[_Line]:
@@ -165,12 +193,17 @@ def _tangents(strain: Reals, stress: Reals) -> list[_Line]:
 
 
 class _Start(NamedTuple):
-    """A curve continued to the left: its zero, the standard error of that, its stress at 0."""
+    """A curve continued to the left.
+
+    Its zero, the standard error of that, its stress at zero strain, the largest it was continued
+    from, and its slope.
+    """
 
     zero: float
     error: float
     stress: float
     top: float
+    slope: float
 
 
 def _parabola(strain: Reals, stress: Reals) -> _Start | None:
@@ -197,7 +230,7 @@ def _parabola(strain: Reals, stress: Reals) -> _Start | None:
     if zero is None:
         return None
     at_zero = float(np.polyval(solution[::-1], -strain[0]))
-    return _Start(zero + float(strain[0]), error, at_zero, float(np.abs(y).max()))
+    return _Start(zero + float(strain[0]), error, at_zero, float(np.abs(y).max()), slope)
 
 
 def _root(solution: Reals) -> float | None:

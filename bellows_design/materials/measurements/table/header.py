@@ -69,6 +69,7 @@ def _below(sheet: Sheet, index: int, headings: tuple[Heading, ...], named: str) 
     rest, notes, units = sheet.rows[index + 1 :], [], None
     if rest and _are_units(rest[0].cells):
         units = rest[0].cells
+        _require_one_unit(headings, units, f"{named} and {rest[0].number}")
         headings = _in_units(headings, units)
         notes.append(f"units are those of line {rest[0].number}")
         rest = rest[1:]
@@ -177,6 +178,18 @@ def _first_of_run(sheet: Sheet) -> int:
 def _are_units(cells: Sequence[str]) -> bool:
     given = [cell.strip("[](){}<> ") for cell in cells if cell]
     return bool(given) and all(not unit or plain_unit(unit) in ALL for unit in given)
+
+
+def _require_one_unit(headings: Sequence[Heading], cells: Sequence[str], named: str) -> None:
+    """Refuse a unit in a name that the row of units below contradicts."""
+    for each, cell in zip(headings, cells, strict=False):
+        unit = plain_unit(cell.strip("[](){}<> "))
+        if unit and each.unit is not None and unit != each.unit:
+            raise DesignError(
+                f"{named}: {quoted(each.text)} has another unit below it, {quoted(cell)}; --units "
+                f"{each.quantity}={cell.strip('[](){}<> ')} or {each.quantity}="
+                f"{each.unit} tells which, with --skip for the row of units."
+            )
 
 
 def _in_units(headings: Sequence[Heading], cells: Sequence[str]) -> tuple[Heading, ...]:

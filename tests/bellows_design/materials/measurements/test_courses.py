@@ -69,7 +69,7 @@ def test_the_last_loading_or_all_points_are_used_if_asked_for() -> None:
 
 
 def test_noise_in_the_strain_is_no_turn() -> None:
-    strain = STRAIN + 0.01 * np.random.default_rng(0).standard_normal(60)
+    strain = STRAIN + 0.005 * np.random.default_rng(0).standard_normal(60)
     data = read(strain.clip(0.001), STRESS, keep=("zero",))
     assert data.stretch.size == 60 and not said(data, "to and fro")
 
@@ -125,6 +125,50 @@ def test_a_preload_is_noticed_and_the_curve_continued_to_zero(preload: float) ->
     data = read((1 + line) / (1 + preload) - 1, noisy)
     assert said(data, "taken for a preload") and said(data, "--keep zero takes it as it is")
     assert shear(data) == pytest.approx(SHEAR, rel=0.05)
+
+
+@pytest.mark.parametrize("offset", [-0.05, 0.05, 0.1])
+def test_stress_measured_at_zero_strain_is_a_preload_however_small(offset: float) -> None:
+    data = read(np.append(0, STRAIN), np.append(0, STRESS) + offset)
+    assert said(data, "the stress at zero strain is") and shear(data) == pytest.approx(SHEAR, 0.05)
+
+
+def test_waiting_at_zero_changes_nothing() -> None:
+    random = np.random.default_rng(5)
+    for noise in (0.0, 1e-5, 1e-4):
+        strain = np.append(noise * random.standard_normal(50), STRAIN)
+        stress = np.append(0.01 * random.standard_normal(50), STRESS)
+        assert shear(read(strain, stress)) == pytest.approx(SHEAR, rel=0.05)
+
+
+def test_points_at_which_the_strain_is_held_are_left_out() -> None:
+    relaxing = STRESS[29] * (1 - 0.1 * np.linspace(0, 1, 40))
+    strain = np.concatenate([STRAIN[:30], np.full(40, STRAIN[29]), STRAIN[30:]])
+    stress = np.concatenate([STRESS[:30], relaxing, STRESS[30:]])
+    data = read(strain, stress)
+    assert data.stretch.size == 60 and said(data, "40 points are left out, of each hold the first")
+    assert read(strain, stress, keep=("break",)).stretch.size == 100
+
+
+def test_a_seating_cycle_before_the_test_is_no_part_of_it() -> None:
+    up, down = np.linspace(0.001, 0.06, 15), np.linspace(0.058, 0.002, 14)
+    first = np.interp(np.append(up, down), np.append(0, STRAIN), np.append(0, STRESS))
+    strain = np.concatenate([up, down, STRAIN])
+    data = read(strain, np.concatenate([first * np.repeat([1, 0.8], [15, 14]), STRESS]))
+    assert said(data, "2 times up") and shear(data) == pytest.approx(SHEAR, rel=0.03)
+
+
+def test_one_point_that_jumps_up_is_no_peak_before_a_break() -> None:
+    data = read(STRAIN, np.where(np.arange(60) == 30, 3, 1) * STRESS)
+    assert data.stretch.size == 60 and not said(data, "break")
+
+
+def test_tension_that_counts_as_negative_is_asked_about() -> None:
+    part = STRAIN < 0.9
+    with pytest.raises(DesignError, match="tension with the signs turned"):
+        read(-STRAIN[part], -STRESS[part])
+    with pytest.raises(DesignError):
+        read(-STRAIN, -STRESS, header="strain,stress_mpa")
 
 
 def test_a_preload_beyond_belief_is_asked_about() -> None:

@@ -230,6 +230,12 @@ def test_commas_that_may_be_either_are_asked_about(tmp_path: Path) -> None:
     assert data.stress == pytest.approx(STRESS, abs=6e-4)
 
 
+def test_a_unit_that_the_row_of_units_contradicts_is_asked_about(tmp_path: Path) -> None:
+    text = table("Strain (%),Stress (MPa)\nmm/mm,MPa", STRAIN, STRESS)
+    assert "has another unit below it, “mm/mm”" in refusal(tmp_path, text)
+    holds_the_test(read(tmp_path, text, ReadingOptions(skip="2-2", units="strain=mm/mm")))
+
+
 def test_decimal_commas_between_commas_are_refused_with_the_reason(tmp_path: Path) -> None:
     text = table("strain,stress_mpa", STRAIN, STRESS, decimal=",")
     assert "decimal commas need semicolons" in refusal(tmp_path, text)
