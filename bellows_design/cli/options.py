@@ -62,7 +62,7 @@ Meshes = Annotated[
 FitData = Annotated[
     list[Path],
     typer.Argument(
-        metavar="FILE...",
+        metavar="FILE",
         help="Nominal stress (force over initial area) over strain or stretch, of one specimen or "
         "several: CSV and the like, or .xlsx. Columns are known by their names.",
     ),

@@ -19,7 +19,6 @@ from bellows_design.materials.measurements.table.facts import initial_area
 from bellows_design.materials.measurements.table.header import Table
 from bellows_design.materials.measurements.table.headings import Heading
 from bellows_design.materials.measurements.table.units import UNITS, shown_unit
-from bellows_design.validation.quoting import quoted
 from solver.arrays import Reals
 from solver.material.homogeneous import MODES
 
@@ -146,8 +145,6 @@ def _in_compression(
 
 
 def _kind(found: Heading, true: bool, how: str) -> str:
-    if how.startswith(quoted(found.text)):
-        how = how.removeprefix(quoted(found.text)).removeprefix(" is read ")
     kind = {
         "stretch": "stretch",
         "extension": "extension",

@@ -23,7 +23,7 @@ from bellows_design.materials.measurements.conversion import converted
 from bellows_design.materials.measurements.crosscheck import checked_by_force
 from bellows_design.materials.measurements.options import ReadingOptions
 from bellows_design.materials.measurements.points import Measurements, Reading
-from bellows_design.materials.measurements.series import Series, series_of
+from bellows_design.materials.measurements.series import Series, all_of, series_of
 from bellows_design.materials.measurements.specimens import mean_of
 from bellows_design.materials.measurements.strain_scale import bend_of
 from bellows_design.materials.measurements.table.file import sheet_of_file
@@ -128,44 +128,39 @@ def _of(series: Series, note: str) -> str:
 
 
 def _prepared(series: Series, options: ReadingOptions) -> tuple[Series, list[str]]:
-    """Without points after break, its strain from zero; and what was done."""
-    notes = []
+    """Without holds and points after break, its strain from zero; and what was done."""
+    steps = []
     if "break" not in options.keep:
-        series, note = without_holds(series)
-        notes += [note] if note else []
-        parts = []
-        for mask in (series.strain < 1, series.strain >= 1):
-            part, note = before_break(series.at(mask)) if mask.any() else (series.at(mask), None)
-            parts.append(part.lines)
-            notes += [note] if note else []
-        series = series.at(np.isin(series.lines, np.concatenate(parts)))
+        steps += [without_holds, _before_break_of_each_sign]
     if "zero" not in options.keep:
-        series, note = from_zero(series)
+        steps.append(from_zero)
+    notes = []
+    for step in steps:
+        series, note = step(series)
         notes += [note] if note else []
     return series, notes
+
+
+def _before_break_of_each_sign(series: Series) -> tuple[Series, str | None]:
+    """Tension and compression each until its break."""
+    parts = [series.at(mask) for mask in (series.strain < 1, series.strain >= 1) if mask.any()]
+    kept = [before_break(part) for part in parts]
+    lines = np.concatenate([part.lines for part, _ in kept])
+    notes = [note for _, note in kept if note]
+    return series.at(np.isin(series.lines, lines)), "; ".join(notes) or None
 
 
 def _measurements(
     series: Sequence[Series], reading: Reading, name: str, place: str
 ) -> Measurements:
     """All series together; of several specimens in one kind of test their mean."""
-    joined, spreads, notes = [], [], []
-    ordered = sorted(series, key=lambda each: each.mode)
-    for _, group in groupby(ordered, key=lambda each: each.mode):
-        specimens = list(group)
-        if len(specimens) > 1:
-            mean, spread, note = mean_of(specimens)
-            notes.append(note)
-        else:
-            mean, spread = specimens[0], np.zeros(specimens[0].strain.size)
-        joined.append(mean)
-        spreads.append(spread)
     for each in series:
         _require_signs(each)
+    joined, spreads, notes = _means(series)
     result = Measurements(
         name,
-        np.concatenate([each.strain for each in joined]),
-        np.concatenate([each.stress for each in joined]),
+        all_of(joined, "strain"),
+        all_of(joined, "stress"),
         np.concatenate([np.full(each.strain.size, each.mode, np.intp) for each in joined]),
         np.concatenate(spreads) if len(joined) < len(series) else None,
         reading + Reading(tuple(notes), _hints(joined)),
@@ -173,6 +168,21 @@ def _measurements(
     _require_enough(result, place)
     _require_elastomer(joined, place)
     return result
+
+
+def _means(series: Sequence[Series]) -> tuple[list[Series], list[Reals], list[str]]:
+    """One series of each kind of test, the spread of its points, and notes."""
+    joined, spreads, notes = [], [], []
+    ordered = sorted(series, key=lambda each: each.mode)
+    for _, group in groupby(ordered, key=lambda each: each.mode):
+        specimens = list(group)
+        mean, spread = specimens[0], np.zeros(specimens[0].strain.size)
+        if len(specimens) > 1:
+            mean, spread, note = mean_of(specimens)
+            notes.append(note)
+        joined.append(mean)
+        spreads.append(spread)
+    return joined, spreads, notes
 
 
 def _require_enough(data: Measurements, place: str) -> None:

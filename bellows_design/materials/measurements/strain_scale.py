@@ -75,29 +75,29 @@ def percent_or_fraction(
     reach = float(np.abs(strain).max(initial=0.0))
     bend = bend_of(strain, stress)
     shear = bend.stiffest / stiffness
-    name = quoted(heading.text)
-    if reach < SMALLEST_TEST and strain.min() > -0.95:
-        return 1.0, f"{name} is read as a fraction: its largest number is {reach:.3g}"
-    fraction = _possible(shear) and reach <= LARGEST_FRACTION and strain.min() >= -0.95
-    percent = _possible(100 * shear)
-    rise = (
-        f"an initial shear modulus of {shear:.3g} MPa as fractions, {100 * shear:.3g} as per cent"
-    )
+    in_bounds = reach <= LARGEST_FRACTION and strain.min(initial=0.0) >= -0.95
+    fraction, percent = in_bounds and _possible(shear), _possible(100 * shear)
+    of_rubber = bend.is_of_rubber(reach)
+    if reach < SMALLEST_TEST:
+        return 1.0, f"as a fraction: its largest number is {reach:.3g}"
     if fraction and not percent:
-        return 1.0, f"{name} is read as a fraction: per cent would be {100 * shear:.3g} MPa stiff"
-    if percent and not fraction and not bend.is_of_rubber(reach):
-        return 0.01, (
-            f"{name} is read as per cent: as fractions, up to {reach:.3g}, no elastomer has them "
-            f"({rise})"
-        )
-    if fraction and bend.is_of_rubber(reach):
+        return 1.0, f"as a fraction: in per cent the shear modulus would be {100 * shear:.3g} MPa"
+    if fraction and of_rubber:
         return 1.0, (
-            f"{name} is read as a fraction: the curve bends as rubber does up to {100 * reach:.3g} "
-            f"%, not within {reach:.3g} %"
+            f"as a fraction: the curve bends as rubber does up to {100 * reach:.3g} %, not within "
+            f"{reach:.3g} %"
         )
+    if percent and not (fraction or of_rubber):
+        return 0.01, f"as per cent: fractions would reach {reach:.3g}, {_moduli(shear)}"
     raise DesignError(
-        f"{named}: the strains {name}, up to {reach:.3g}, may be fractions or per cent ({rise}); "
-        "--units strain=1 or --units strain=% tells which."
+        f"{named}: the strains {quoted(heading.text)}, up to {reach:.3g}, may be fractions or per "
+        f"cent ({_moduli(shear)}); --units strain=1 or --units strain=% tells which."
+    )
+
+
+def _moduli(shear: float) -> str:
+    return (
+        f"an initial shear modulus of {shear:.3g} MPa as fractions, {100 * shear:.3g} as per cent"
     )
 
 
