@@ -30,6 +30,9 @@ MOST_STEEPER = 1.5
 """Slope at the end over that of the beginning which tension of an elastomer does not reach if it
 never falls in between."""
 
+STIFFENS_BEYOND = 1.0
+"""Strain beyond which nominal stress of silicones may rise more steeply than at first."""
+
 FAR = 0.3
 """Strain from which on a test must not begin with a stress of nothing."""
 
@@ -113,7 +116,8 @@ def _require_bend_of_compression(series: Series) -> None:
 
 def _require_bend(series: Series, strain: Reals, stress: Reals) -> None:
     """Refuse curves that rise ever more steeply from the first, as no nominal tension does."""
-    parts = [part for part in np.array_split(np.arange(strain.size), 6) if part.size >= 4]
+    first = np.flatnonzero(strain <= STIFFENS_BEYOND)
+    parts = [part for part in np.array_split(first, 6) if part.size >= 4]
     slopes = [_line(strain[part], stress[part]).slope for part in parts]
     if len(slopes) < 6 or not np.isfinite(slopes).all() or np.ptp(strain) < 0.2:
         return

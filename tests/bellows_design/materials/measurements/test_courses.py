@@ -9,6 +9,7 @@ import pytest
 from tensile import NINJAFLEX, SHEAR, curve, table
 
 from bellows_design.errors import DesignError
+from bellows_design.materials import load_material, material_names
 from bellows_design.materials.measurements.loading import parse_measurements
 from bellows_design.materials.measurements.options import ReadingOptions
 from bellows_design.materials.measurements.points import Measurements
@@ -161,6 +162,16 @@ def test_a_seating_cycle_before_the_test_is_no_part_of_it() -> None:
 def test_one_point_that_jumps_up_is_no_peak_before_a_break() -> None:
     data = read(STRAIN, np.where(np.arange(60) == 30, 3, 1) * STRESS)
     assert data.stretch.size == 60 and not said(data, "break")
+
+
+@pytest.mark.parametrize("name", [each for each in material_names() if "linear" not in each])
+def test_tests_of_every_material_of_the_library_are_read_without_a_question(name: str) -> None:
+    """Up to 300 %, where silicones stiffen; no hint but of how soft or stiff they are."""
+    law = load_material(name).law_constants()
+    for reach in (0.3, 1.0, 3.0):
+        strain, stress = curve(reach, law=law)
+        data = read(strain, stress)
+        assert data.stretch == pytest.approx(1 + strain, rel=1e-5)
 
 
 def test_tension_that_counts_as_negative_is_asked_about() -> None:
