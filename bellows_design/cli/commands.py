@@ -14,22 +14,34 @@ import typer
 
 from bellows_design.analysis.model_names import ModelName
 from bellows_design.cli import actions
-from bellows_design.cli.answer import answer
+from bellows_design.cli.answer import Answer, answer
 from bellows_design.cli.options import (
+    AcceptPoorFit,
     Accuracy,
+    Area,
     AsJson,
+    Branch,
     BudgetOptions,
+    Columns,
+    Decimal,
     DesignName,
     DesignOptions,
+    ElongationAtBreak,
     FitData,
     FitModelName,
+    GaugeLength,
+    Keep,
     Memory,
     Meshes,
     MeshSeconds,
     Pressure,
     Printer,
     Settings,
+    Skip,
     TimeLimit,
+    TrueStrain,
+    TrueStress,
+    Units,
     Vtu,
     YieldStrength,
 )
@@ -159,12 +171,35 @@ def fit(
         Path | None, typer.Option("-o", "--output", help="Also write a material as .toml.")
     ] = None,
     yield_strength: YieldStrength = None,
+    elongation_at_break: ElongationAtBreak = None,
+    accept_poor_fit: AcceptPoorFit = False,
     plot: Annotated[
-        Path | None, typer.Option(help="Also draw the fit (.png); needs matplotlib.")
+        Path | None,
+        typer.Option(help="Also draw data, fit and residuals (.png); needs matplotlib."),
     ] = None,
+    columns: Columns = None,
+    units: Units = None,
+    skip: Skip = None,
+    decimal: Decimal = None,
+    branch: Branch = None,
+    keep: Keep = None,
+    true_stress: TrueStress = False,
+    true_strain: TrueStrain = False,
+    area: Area = None,
+    gauge_length: GaugeLength = None,
     as_json: AsJson = False,
 ) -> None:
-    """Fit a rubber's constants to measured stress over stretch."""
+    """Fit a rubber's constants to measured nominal stress over strain."""
+    from bellows_design.cli.fit import MaterialOptions
     from bellows_design.cli.fit import fit as fit_measurements
+    from bellows_design.materials.measurements.options import ReadingOptions
 
-    answer(lambda: fit_measurements(data, model, output, yield_strength, plot), as_json)
+    def work() -> Answer:
+        reading = ReadingOptions(
+            columns, units, skip, decimal, branch, tuple(keep or ()),
+            true_stress, true_strain, area, gauge_length,
+        )  # fmt: skip
+        material = MaterialOptions(output, yield_strength, elongation_at_break, accept_poor_fit)
+        return fit_measurements(data, model, material, plot, reading)
+
+    answer(work, as_json)

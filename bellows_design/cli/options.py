@@ -69,13 +69,85 @@ Meshes = Annotated[
     typer.Option(metavar="N", help="Meshes of each; without it one more than evaluate uses."),
 ]
 FitData = Annotated[
-    Path, typer.Argument(metavar="CSV", help="Columns mode, stretch or strain, and stress_mpa.")
+    list[Path],
+    typer.Argument(
+        metavar="FILE",
+        help="Nominal stress (force over initial area) over strain or stretch, of one specimen or "
+        "several: CSV and the like, or .xlsx. Columns are known by their names.",
+    ),
 ]
 FitModelName = Annotated[
     str, typer.Option(help=f"{', '.join(FIT_CHOICES[:-1])} or {FIT_CHOICES[-1]}.")
 ]
 YieldStrength = Annotated[
     float | None, typer.Option(metavar="MPA", help="Yield strength of that material.")
+]
+ElongationAtBreak = Annotated[
+    float | None,
+    typer.Option(
+        metavar="PERCENT",
+        help="Elongation at break of that material, per cent (400, not 4): strains beyond are "
+        "refused.",
+    ),
+]
+AcceptPoorFit = Annotated[
+    bool,
+    typer.Option(
+        "--accept-poor-fit", help="Take a poor fit for a material, which keeps a warning."
+    ),
+]
+Columns = Annotated[
+    str | None,
+    typer.Option(
+        metavar="NAMES",
+        help="Names of the columns instead of the header's: strain_percent,stress_mpa, with - for "
+        "one to leave out; or by number: strain=2,stress_mpa=4.",
+    ),
+]
+Units = Annotated[
+    str | None,
+    typer.Option(
+        metavar="UNITS",
+        help="Units instead of the header's: stress=kPa (MPa, N/mm², psi, kgf/cm² …), strain=% "
+        "(1 for fractions), force=N, extension=mm.",
+    ),
+]
+Skip = Annotated[
+    str | None,
+    typer.Option(
+        metavar="LINES", help="Lines to leave out: 4 the first four, 3-5, 70- to the end."
+    ),
+]
+Decimal = Annotated[str | None, typer.Option(metavar="SIGN", help="Decimal sign: point or comma.")]
+Branch = Annotated[
+    str | None,
+    typer.Option(
+        metavar="BRANCH",
+        help="Of a test that goes to and fro: first (loading for the first time) or last; all for "
+        "all points; specimens where each return is a new specimen.",
+    ),
+]
+Keep = Annotated[
+    list[str] | None,
+    typer.Option(
+        metavar="WHAT",
+        help="zero: take strains as they are, without looking for preload and slack; break: take "
+        "points after break as well. Repeatable.",
+    ),
+]
+TrueStress = Annotated[
+    bool, typer.Option("--true-stress", help="The stress is over present, not initial, area.")
+]
+TrueStrain = Annotated[
+    bool, typer.Option("--true-strain", help="The strain is logarithmic, not nominal.")
+]
+Area = Annotated[
+    float | None,
+    typer.Option(metavar="MM2", help="Initial area that a force is divided by, mm²."),
+]
+GaugeLength = Annotated[
+    float | None,
+    typer.Option(metavar="MM", help="Initial length that an extension is divided by, mm."),
 ]
 
 

@@ -14,8 +14,8 @@ from solver.material import laws as solver_laws
 
 if TYPE_CHECKING:
     from bellows_design.materials.fitting.fit_result import Fit
-    from bellows_design.materials.fitting.measurements import Measurements
     from bellows_design.materials.fitting.weighted import Weighted
+    from bellows_design.materials.measurements.points import Measurements
 
 
 class Law(NamedTuple):
@@ -60,7 +60,7 @@ def _linear(data: Measurements, problem: Weighted, model: FitModel) -> Fit:
 
 def _of_solver(law: solver_laws.Law) -> Law:
     """The row of a law of the solver's whose energy is linear in its constants."""
-    form = FitModel(law.name, (), _linear, higher=len(law.constants), automatic=False)
+    form = FitModel(law.name, (), _linear, higher=len(law.constants))
     return Law(law.name, (), (law.constants,), (form,), softens=True, constants=law.constants)
 
 
@@ -81,7 +81,7 @@ _ROWS = (
         "yeoh",
         (2.0,),
         (("c10", "c20"), ("c10", "c20", "c30")),
-        (FitModel("yeoh", (2.0,), _yeoh, higher=2, automatic=False),),
+        (FitModel("yeoh", (2.0,), _yeoh, higher=2),),
         softens=True,
     ),
     *(_of_solver(law) for law in solver_laws.LAWS if law.constants),
@@ -91,7 +91,7 @@ LAWS = {law.name: law for law in _ROWS}
 """Name -> law."""
 
 FIT_MODELS = {model.name: model for law in _ROWS for model in law.fits}
-"""Name -> what may be fitted; those tried for the best one come in the order of their size."""
+"""Name -> what may be fitted."""
 
 BEST = "best"
 FIT_CHOICES = (BEST, *FIT_MODELS)

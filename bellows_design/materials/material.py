@@ -17,12 +17,20 @@ sign. All laws stand in ``laws.py``.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Annotated, Any, Self
 
 from pydantic import Field, field_validator, model_validator
 from pydantic_core import PydanticKnownError
 
+from bellows_design.materials.bounds import (
+    POOR_FIT,
+    POOR_MODULUS,
+    POOR_R_SQUARED,
+    SOFTEST,
+    STIFFEST,
+)
 from bellows_design.materials.laws import LAWS, OWN_CONSTANTS, Law
 from bellows_design.validation.parameters import Parameters, require
 from bellows_design.validation.quoting import quoted
@@ -32,11 +40,13 @@ if TYPE_CHECKING:
     from solver.material.constants import Constants
     from solver.material.law import Hyperelastic
 
-SOFTEST, STIFFEST = 0.003, 300.0
-"""MPa. Initial shear moduli from the softest silicones to the hardest TPU; more is a unit."""
-
 MOST_HIGHER = 4
 """Of Yeoh's higher terms; more would only fit the noise."""
+
+_R_SQUARED = re.compile(
+    r"\bR(?:²|\^?2)(?:\s*[=:]\s*|\s+)(?:of\s+)?([-\u2212]?\d{1,9}(?:\.\d{1,9})?)", re.ASCII
+)
+"""A coefficient of determination that a source states."""
 
 Strain = Annotated[float, Field(gt=-1, le=20)]
 Coefficient = Annotated[float, Field(ge=-STIFFEST, le=STIFFEST)]
@@ -60,6 +70,9 @@ class Material(Parameters):
         yield_strength: Highest admissible von Mises stress unless the design limits it, MPa.
         elongation_at_break: Nominal strain at break in a tensile test, %.
         valid_strain: Lowest and highest principal nominal strain of the tests (fractions).
+        fit_error: Root mean square of the relative errors of the fit the constants come from, %.
+        fit_modulus_error: How far that fit's initial shear modulus is from what the beginning of
+            the tests says, %.
         source: Where the constants are from.
 
     Raises:
@@ -92,6 +105,18 @@ class Material(Parameters):
     )
     valid_strain: tuple[Strain, Strain] | None = Field(
         default=None, description="lowest and highest principal nominal strain of the tests"
+    )
+    fit_error: float | None = Field(
+        default=None,
+        ge=0,
+        description="root mean square of the relative errors of the fit its constants come from",
+        json_schema_extra={"unit": "%"},
+    )
+    fit_modulus_error: float | None = Field(
+        default=None,
+        ge=0,
+        description="difference of its initial shear modulus from the beginning of the tests",
+        json_schema_extra={"unit": "%"},
     )
     source: str = Field(default="", max_length=1000)
 
@@ -138,6 +163,11 @@ class Material(Parameters):
         return self
 
     @property
+    def warnings(self) -> tuple[str, ...]:
+        """Sentences on why results with this material deserve doubt; none for a good fit."""
+        return tuple(text for text in (_poor_fit(self), _wrong_modulus(self)) if text)
+
+    @property
     def initial_shear_modulus(self) -> float:
         """Shear modulus of the undeformed material, MPa: Σ μᵢ of Ogden's law."""
         return self.hyperelastic().shear_modulus if self.constants else sum(self.mu)
@@ -158,6 +188,33 @@ class Material(Parameters):
     def law_constants(self) -> Constants:
         """Law and constants, for its homogeneous states and its stability."""
         return self.hyperelastic().constants
+
+
+def _poor_fit(material: Material) -> str | None:
+    """What the material says of its fit, in a field or, as files of old, in its source."""
+    name, error = quoted(material.name), material.fit_error
+    if error is not None and error > POOR_FIT:
+        return (
+            f"the material {name} is a poor fit: it is off by {error:.3g} % in the mean of its "
+            f"tests (more than {POOR_FIT:g} %); its results are as uncertain."
+        )
+    stated = _R_SQUARED.search(material.source) if error is None else None
+    if stated is not None and float(stated.group(1).replace("\u2212", "-")) < POOR_R_SQUARED:
+        return (
+            f"the material {name} is a poor fit: its source states R² {stated.group(1)} (less than "
+            f"{POOR_R_SQUARED:g}); results with it are a guess."
+        )
+    return None
+
+
+def _wrong_modulus(material: Material) -> str | None:
+    error = material.fit_modulus_error
+    if error is None or error <= POOR_MODULUS:
+        return None
+    return (
+        f"the initial shear modulus of the material {quoted(material.name)} is {error:.2g} % off "
+        f"what the beginning of its tests says (more than {POOR_MODULUS:g} %)."
+    )
 
 
 def _check_terms(material: Material) -> None:

@@ -7,7 +7,12 @@ corrected information criterion
     AICc = n ln s² + 2 K + 2 K (K + 1)/(n − K − 1),
 
 s the relative error, K the free constants and the error, but no s below 1 %: no test is better.
-Source: K. P. Burnham and D. R. Anderson, Model Selection and Multimodel Inference, 2002.
+With few points its last term outweighs any error. Hence a model does not count whose error is more
+than the measurements allow: at least twice that of a larger stable model, and by the F test of
+their sums of squares by chance in less than one of a hundred such tests. Nor does one whose initial
+shear modulus the beginning of the tests contradicts, if there are others.
+Sources: K. P. Burnham and D. R. Anderson, Model Selection and Multimodel Inference, 2002; N. R.
+Draper and H. Smith, Applied Regression Analysis, 1998, section 6.1.
 """
 
 from __future__ import annotations
@@ -17,20 +22,28 @@ from collections.abc import Sequence
 from bellows_design.errors import DesignError
 from bellows_design.materials.fitting.fit_model import FitModel
 from bellows_design.materials.fitting.fit_result import BEST_ERROR, Choice, Fit
-from bellows_design.materials.fitting.measurements import Measurements
+from bellows_design.materials.fitting.initial_modulus import initial_modulus
 from bellows_design.materials.fitting.weighted import Weighted
-from bellows_design.materials.laws import BEST, FIT_CHOICES, FIT_MODELS
+from bellows_design.materials.laws import BEST, FIT_CHOICES, FIT_MODELS, law_of_fit
+from bellows_design.materials.measurements.points import Measurements
 from bellows_design.validation.quoting import did_you_mean, quoted
 
 NOT_MUCH_WORSE = 10.0
 """Difference in AICc up to which the smaller model is preferred."""
+
+WORSE, BY_CHANCE = 2.0, 0.01
+"""Ratio of errors, and probability, from which on a larger model contradicts a smaller one."""
+
+MODULUS_OFF = 5.0
+"""%. Difference of initial shear moduli from which on the beginning of the tests contradicts."""
 
 
 def fit(data: Measurements, model: str = BEST) -> Choice:
     """Fit ``model`` to ``data``.
 
     ``best`` is the smallest model, of those the measurements determine if there are any, whose
-    AICc is within 10 of the lowest; unstable models and those with an idle term do not count.
+    AICc is within 10 of the lowest; unstable models, those with an idle term and those with more
+    error than the measurements allow do not count.
 
     Args:
         data: Stretches (no unit) and nominal stresses (MPa), see ``load_measurements``.
@@ -46,7 +59,7 @@ def fit(data: Measurements, model: str = BEST) -> Choice:
         only = fit_model(data, model)
         return Choice(only, (only,))
     problem = Weighted.of(data)
-    automatic = [each for each in FIT_MODELS.values() if each.automatic]
+    automatic = sorted(FIT_MODELS.values(), key=lambda each: each.constants)
     possible = [each for each in automatic if _enough(problem, each)]
     if not possible:
         raise DesignError(_too_few(data, problem, automatic[0]))
@@ -54,7 +67,7 @@ def fit(data: Measurements, model: str = BEST) -> Choice:
     for each in possible:
         if not _cannot_be_better(each, tried):
             tried.append(each.fitter(data, problem, each))
-    return Choice(_best(tried), tuple(tried))
+    return _choice(data, tried)
 
 
 def fit_model(data: Measurements, model: str) -> Fit:
@@ -83,14 +96,51 @@ def _cannot_be_better(model: FitModel, tried: Sequence[Fit]) -> bool:
     smaller = [each for each in tried if each.free_constants < model.constants]
     return any(
         each.relative_error <= BEST_ERROR
-        or (each.vanished and None in FIT_MODELS[each.model].exponents)
+        or (each.vanished and None in FIT_MODELS[each.model].exponents and None in model.exponents)
         for each in smaller
     )
 
 
-def _best(tried: Sequence[Fit]) -> Fit:
-    good = [each for each in tried if each.stable and not each.vanished] or list(tried)
+def usable(data: Measurements, fit: Fit) -> bool:
+    """True if the material is stable: everywhere, or over the tests where its law may soften."""
+    low, high = data.valid_strain
+    in_range = law_of_fit(fit.model).softens and fit.stability.covers(1 + low, 1 + high)
+    return fit.stable or in_range
+
+
+def _choice(data: Measurements, tried: Sequence[Fit]) -> Choice:
+    """The best of the fits, and the one that the criterion alone would take if it differs."""
+    good = [each for each in tried if usable(data, each) and not each.vanished] or list(tried)
+    allowed = [each for each in good if not any(_contradicts(other, each) for other in good)]
+    allowed = _with_right_modulus(data, allowed) or _with_right_modulus(data, good) or allowed
+    best, by_criterion = _best(allowed), _best(good)
+    return Choice(best, tuple(tried), None if best is by_criterion else by_criterion)
+
+
+def _with_right_modulus(data: Measurements, fits: Sequence[Fit]) -> list[Fit]:
+    """Those whose initial shear modulus the beginning of the tests does not contradict."""
+    start = initial_modulus(data)
+    if start is None:
+        return list(fits)
+    moduli = [(each, each.stability.shear_modulus) for each in fits]
+    return [each for each, modulus in moduli if not start.contradicts(modulus, MODULUS_OFF)]
+
+
+def _best(good: Sequence[Fit]) -> Fit:
     bound = min(each.aicc for each in good) + NOT_MUCH_WORSE
     near = [each for each in good if each.aicc <= bound]
     near = [each for each in near if each.determined] or near
     return min(near, key=lambda each: (each.free_constants, each.aicc))
+
+
+def _contradicts(larger: Fit, smaller: Fit) -> bool:
+    """True if ``larger`` shows that the error of ``smaller`` is more than scatter."""
+    more = larger.free_constants - smaller.free_constants
+    freedom = larger.points - larger.free_constants
+    least, most = (max(each.relative_error, BEST_ERROR) for each in (larger, smaller))
+    if more <= 0 or freedom <= 0 or most < WORSE * least:
+        return False
+    from scipy.stats import f as fisher
+
+    ratio = (most**2 - least**2) * larger.points / more / (least**2 * larger.points / freedom)
+    return bool(fisher.sf(ratio, more, freedom) < BY_CHANCE)

@@ -7,14 +7,17 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from rich.box import SIMPLE
 from rich.console import RenderableType
 from rich.table import Table
 from rich.text import Text
 
 from bellows_design.materials.fitting.fit_result import Choice, Constant, Fit
-from bellows_design.materials.fitting.measurements import Measurements
-from bellows_design.reports.fit_notes import fit_notes
+from bellows_design.materials.fitting.initial_modulus import initial_modulus
+from bellows_design.materials.material import Material
+from bellows_design.materials.measurements.points import Measurements
+from bellows_design.reports.fit_notes import fit_notes, material_notes
 from solver.material.stability import StableRange
 
 
@@ -23,7 +26,7 @@ class FitReport:
     """A fit, the measurements it was made of, and what was written of it.
 
     ``requested`` is the model that was asked for; ``refused`` says why the fit is no material, None
-    if it can be one; the files are None where none was asked for.
+    if it can be one; the files are None where none was asked for; ``material`` is what was written.
     """
 
     data: Measurements
@@ -32,6 +35,7 @@ class FitReport:
     refused: str | None = None
     material_file: Path | None = None
     plot_file: Path | None = None
+    material: Material | None = None
 
     @property
     def fit(self) -> Fit:
@@ -41,13 +45,17 @@ class FitReport:
     @property
     def notes(self) -> tuple[str, ...]:
         """Sentences on what the fit leaves open."""
-        return fit_notes(self.data, self.fit)
+        notes = fit_notes(self.data, self.choice)
+        return (
+            notes if self.material is None else (*notes, *material_notes(self.data, self.material))
+        )
 
     def to_dict(self) -> dict[str, Any]:
         """Plain values for JSON: stresses in MPa, stretches and strains without unit."""
-        fit = self.fit
+        fit, other = self.fit, self.choice.by_criterion
         return {
             "data": self.data.name,
+            "reading": _reading(self.data),
             "requested": self.requested,
             "model": fit.model,
             "points": fit.points,
@@ -59,6 +67,7 @@ class FitReport:
             "constants": [_constant(constant) for constant in fit.constants],
             "r_squared": fit.r_squared,
             "relative_error_percent": 100 * fit.relative_error,
+            "initial_shear_modulus_of_tests_mpa": _initial_modulus(self.data),
             "largest_error": {
                 "error_mpa": fit.misfit.error,
                 "test": fit.misfit.mode,
@@ -70,6 +79,7 @@ class FitReport:
             "unique": fit.unique,
             "valid_strain": list(self.data.valid_strain),
             "stable_stretch": {each.mode: _range(each) for each in fit.stability.ranges},
+            "by_criterion": None if other is None else other.model,
             "tried": [_summary(each) for each in self.choice.tried],
             "notes": list(self.notes),
             "material_file": None if self.material_file is None else str(self.material_file),
@@ -80,7 +90,10 @@ class FitReport:
 
 def fit_table(report: FitReport) -> Sequence[RenderableType]:
     """Constants with intervals, quality, ranges, the models tried, and the notes."""
-    lines: list[RenderableType] = [_constants_table(report), _quality_table(report)]
+    reading = report.data.reading
+    lines: list[RenderableType] = [Text(f"read: {note}") for note in reading.notes]
+    lines += [Text(f"hint: {hint}", style="yellow") for hint in reading.hints]
+    lines += [_constants_table(report), _quality_table(report)]
     if len(report.choice.tried) > 1:
         lines.append(_tried_table(report.choice))
     lines += [Text(f"note: {note}", style="yellow") for note in report.notes]
@@ -163,7 +176,23 @@ def _test(data: Measurements, mode: str) -> dict[str, Any]:
         "stretch": [low, high],
         "strain": [low - 1, high - 1],
         "largest_stress_mpa": float(abs(stress).max()),
+        "spread_mpa": _spread(data, mode),
     }
+
+
+def _spread(data: Measurements, mode: str) -> float | None:
+    """Median standard deviation of the specimens of a test, MPa; None where it has only one."""
+    spread = None if data.spread is None else data.spread[data.chosen(mode)]
+    return float(np.median(spread)) if spread is not None and spread.any() else None
+
+
+def _reading(data: Measurements) -> dict[str, Any]:
+    return {"notes": list(data.reading.notes), "hints": list(data.reading.hints)}
+
+
+def _initial_modulus(data: Measurements) -> float | None:
+    start = initial_modulus(data)
+    return None if start is None else start.value
 
 
 def _constant(constant: Constant) -> dict[str, Any]:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bellows_design.materials.fitting.fit_result import Fit
-from bellows_design.materials.fitting.measurements import Measurements
+from bellows_design.materials.measurements.points import Measurements
 from bellows_design.reports.plots import COLOURS, two_axes
 from solver.material.homogeneous import MODES, nominal_stress
 
@@ -28,15 +28,23 @@ def plot_fit(data: Measurements, fit: Fit, path: Path) -> None:
 
 
 def _draw_stress(axes: Axes, data: Measurements, fit: Fit) -> None:
-    """Points and curves of the tests; dashed, the curves of those that were not made."""
-    low, high = min(1.0, data.stretch.min()), max(1.0, data.stretch.max())
+    """Points and curves of the tests; dashed, the curves of those that were not made.
+
+    Bands are the standard deviation of specimens.
+    """
+    first, last = min(1.0, data.stretch.min()), max(1.0, data.stretch.max())
     for (name, mode), colour in zip(MODES.items(), COLOURS, strict=False):
         stretch, stress = data.of(name)
-        ends = (stretch.min(), stretch.max()) if stretch.size else (low, high)
+        ends = (stretch.min(), stretch.max()) if stretch.size else (first, last)
         line = np.linspace(min(1.0, ends[0]), max(1.0, ends[1]), 200)
         style = "-" if stretch.size else "--"
         label = name if stretch.size else f"{name}, not measured"
         axes.plot(stretch, stress, "o", markersize=4, alpha=0.5, color=colour)
+        if data.spread is not None and stretch.size:
+            spread = data.spread[data.chosen(name)]
+            order = np.argsort(stretch)
+            low, high = (stress - spread)[order], (stress + spread)[order]
+            axes.fill_between(stretch[order], low, high, alpha=0.15, color=colour, linewidth=0)
         axes.plot(
             line,
             nominal_stress(mode, line, fit.law),
@@ -60,5 +68,5 @@ def _draw_errors(axes: Axes, data: Measurements, fit: Fit) -> None:
             error = nominal_stress(mode, stretch, fit.law) - stress
             axes.plot(stretch, error, "o", markersize=4, color=colour, label=name)
     axes.axhline(0, color="black", linewidth=0.8)
-    axes.set(xlabel="stretch", ylabel="model less measurement, MPa")
+    axes.set(xlabel="stretch", ylabel="residual: model less measurement, MPa")
     axes.grid(True, linewidth=0.4, alpha=0.4)

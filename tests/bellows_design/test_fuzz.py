@@ -27,7 +27,7 @@ from bellows_design.design.shipped import load_design, shipped_designs
 from bellows_design.errors import DesignError
 from bellows_design.export.approved import export_approved, require_place, withdraw
 from bellows_design.export.formats import Part
-from bellows_design.materials.fitting.measurements import load_measurements
+from bellows_design.materials.measurements.loading import load_measurements
 
 DESIGNS = Path(__file__).parents[2] / "bellows_design/design/designs"
 CSV = b"mode,stretch,stress_mpa\n" + b"".join(

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
     from bellows_design.materials.fitting.fit_result import Fit
-    from bellows_design.materials.fitting.measurements import Measurements
     from bellows_design.materials.fitting.weighted import Weighted
+    from bellows_design.materials.measurements.points import Measurements
 
 Fitter = Callable[["Measurements", "Weighted", "FitModel"], "Fit"]
 
@@ -21,14 +21,12 @@ class FitModel(NamedTuple):
         exponents: α of each term; None where it is fitted.
         fitter: Function that fits it.
         higher: Number of constants besides μ and α.
-        automatic: True if it is tried when the best model is asked for.
     """
 
     name: str
     exponents: tuple[float | None, ...]
     fitter: Fitter
     higher: int = 0
-    automatic: bool = True
 
     @property
     def constants(self) -> int:

@@ -8,8 +8,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bellows_design.materials.fitting.measurements import Measurements
 from bellows_design.materials.fitting.weighted import Weighted
+from bellows_design.materials.measurements.points import Measurements
 from solver.arrays import Reals
 from solver.material.constants import Constants
 from solver.material.homogeneous import MODES, nominal_stress
@@ -141,10 +141,15 @@ class Fit:
 
 
 class Choice(NamedTuple):
-    """The fit that answers, and all that were tried for it."""
+    """The fit that answers, and all that were tried for it.
+
+    ``by_criterion`` is the one that the information criterion alone would take, where that is
+    another: with few points it prefers models whose error the measurements contradict.
+    """
 
     fit: Fit
     tried: tuple[Fit, ...]
+    by_criterion: Fit | None = None
 
 
 def judged(data: Measurements, problem: Weighted, model: str, found: Estimate) -> Fit:

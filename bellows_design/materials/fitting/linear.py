@@ -20,8 +20,8 @@ from bellows_design.materials.fitting.fit_result import (
     judged,
     student_width,
 )
-from bellows_design.materials.fitting.measurements import Measurements
 from bellows_design.materials.fitting.weighted import Weighted
+from bellows_design.materials.measurements.points import Measurements
 from solver.arrays import Reals
 from solver.material.constants import Constants
 from solver.material.homogeneous import MODES, nominal_stress

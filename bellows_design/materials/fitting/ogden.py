@@ -28,8 +28,8 @@ from bellows_design.materials.fitting.fit_result import (
     judged,
     student_width,
 )
-from bellows_design.materials.fitting.measurements import Measurements
 from bellows_design.materials.fitting.weighted import FLOOR, Weighted
+from bellows_design.materials.measurements.points import Measurements
 from solver.arrays import Reals
 from solver.material.homogeneous import MODES, nominal_stress
 from solver.material.ogden import packed

@@ -6,8 +6,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from bellows_design.materials.fitting.measurements import Measurements
 from bellows_design.materials.fitting.ogden_terms import unit_slopes, unit_stresses
+from bellows_design.materials.measurements.points import Measurements
 from solver.arrays import Reals
 from solver.material.homogeneous import MODES
 

@@ -13,8 +13,8 @@ import numpy as np
 
 from bellows_design.materials.fitting.fit_result import Estimate, Fit, judged
 from bellows_design.materials.fitting.linear import columns_of, fit_linear
-from bellows_design.materials.fitting.measurements import Measurements
 from bellows_design.materials.fitting.weighted import Weighted
+from bellows_design.materials.measurements.points import Measurements
 from solver.arrays import Reals
 from solver.material.constants import Constants
 from solver.material.ogden import packed

@@ -14,7 +14,7 @@ from refusals import refused_in_sentences
 
 from bellows_design.design.design import Design
 from bellows_design.materials.fitting.fit_result import Choice
-from bellows_design.materials.fitting.measurements import load_measurements, parse_measurements
+from bellows_design.materials.measurements.loading import load_measurements, parse_measurements
 from bellows_design.materials.selection import fit
 
 DESIGNS = Path(__file__).parents[3] / "bellows_design/design/designs"

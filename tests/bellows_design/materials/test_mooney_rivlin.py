@@ -12,8 +12,8 @@ from bellows_design import load_design
 from bellows_design.design.design import Design
 from bellows_design.errors import DesignError
 from bellows_design.materials.fitted_material import fitted_material, why_no_material
-from bellows_design.materials.fitting.measurements import Measurements
 from bellows_design.materials.library import checked_material, write_material
+from bellows_design.materials.measurements.points import Measurements
 from bellows_design.materials.selection import fit_model
 from solver.material.homogeneous import MODES, nominal_stress
 from solver.material.mooney_rivlin import MooneyRivlin

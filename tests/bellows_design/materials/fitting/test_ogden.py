@@ -12,13 +12,10 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from bellows_design.errors import DesignError
-from bellows_design.materials.fitting.measurements import (
-    Measurements,
-    load_measurements,
-    parse_measurements,
-)
-from bellows_design.materials.laws import FIT_MODELS
-from bellows_design.materials.selection import fit, fit_model
+from bellows_design.materials.laws import FIT_MODELS, law_of_fit
+from bellows_design.materials.measurements.loading import load_measurements, parse_measurements
+from bellows_design.materials.measurements.points import Measurements
+from bellows_design.materials.selection import NOT_MUCH_WORSE, fit, fit_model
 from solver.material.homogeneous import MODES, nominal_stress
 from solver.material.ogden import packed
 
@@ -123,7 +120,8 @@ def test_best_is_the_smallest_model_that_does() -> None:
     assert fit(made(((0.7,), (1.1,)), noise=0.02)).fit.model == "ogden1"
     choice = fit(made(NINJAFLEX, noise=0.02))
     assert choice.fit.model == "ogden2"
-    assert [each.model for each in choice.tried][:4] == list(FIT_MODELS)[:4]
+    sizes = [FIT_MODELS[each.model].constants for each in choice.tried]
+    assert sizes == sorted(sizes) and len(sizes) >= 4
 
 
 def test_best_says_so_when_no_model_that_fits_is_determined() -> None:
@@ -132,7 +130,7 @@ def test_best_says_so_when_no_model_that_fits_is_determined() -> None:
     choice = fit(data)
     assert choice.fit.relative_error < 0.05
     assert choice.fit.determined or not any(
-        each.determined and each.relative_error < 0.05 for each in choice.tried
+        each.determined and each.aicc < choice.fit.aicc + NOT_MUCH_WORSE for each in choice.tried
     )
 
 
@@ -208,11 +206,13 @@ def test_whatever_the_reader_lets_through_is_fitted_or_refused(
 
 
 def test_every_fit_can_be_a_material_or_says_why_not() -> None:
-    """Curves no positive constants can follow: the fit is poor, never unstable."""
+    """Curves no positive constants can follow: the fit that answers is poor, never unstable."""
     stretch = np.linspace(1.05, 2, 20)
     data = Measurements("odd", stretch, np.sin(3 * (stretch - 1)), np.zeros(20, np.intp))
-    for each in fit(data).tried:
-        assert min(each.mu) >= 0 and each.stable
+    choice = fit(data)
+    assert choice.fit.stable
+    for each in choice.tried:
+        assert min(each.mu, default=0) >= 0 and (each.stable or law_of_fit(each.model).softens)
 
 
 def test_a_hundred_thousand_points_take_seconds() -> None:
