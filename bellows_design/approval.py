@@ -96,7 +96,8 @@ def decide(design: Design, report: PrintabilityReport, state: LoadedState) -> Ve
         All reasons against the design; approval where there is none.
     """
     reasons = (*_print_reasons(report), *_load_reasons(design, state))
-    return Verdict(reasons, state.warnings, _not_judged(design, state))
+    warnings = dict.fromkeys((*design.material.warnings, *state.warnings))
+    return Verdict(reasons, tuple(warnings), _not_judged(design, state))
 
 
 def open_question(design: Design, report: PrintabilityReport, state: LoadedState) -> str:

@@ -116,6 +116,11 @@ class Evaluation(LoadedState):
     computation: Computation = field(repr=False, compare=False)
 
     @property
+    def warnings(self) -> tuple[str, ...]:
+        """Sentences on what makes the numbers less reliable than they look."""
+        return (*self.design.material.warnings, *super().warnings)
+
+    @property
     def mesh(self) -> MeshSize:
         """The size of the finest mesh."""
         return self.meshes[-1].size

@@ -166,6 +166,13 @@ def test_a_warning_is_told_and_refuses_nothing() -> None:
     assert verdict.approved and verdict.to_dict()["warnings"] == ["beyond the tests."]
 
 
+def test_doubt_about_the_material_is_told_with_the_verdict() -> None:
+    poor = DESIGN.material.model_copy(update={"fit_error": 40.0})
+    doubtful = DESIGN.model_copy(update={"material": poor})
+    verdict = decide(doubtful, fake_report(), GOOD)
+    assert verdict.approved and verdict.warnings == poor.warnings and "40 %" in poor.warnings[0]
+
+
 def test_all_reasons_are_named_together() -> None:
     verdict = decide(DESIGN, fake_report(WALL), replace(GOOD, max_von_mises_mpa=5.0))
     assert [reason.kind for reason in verdict.reasons] == ["printability", "stress"]
