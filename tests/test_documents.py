@@ -178,3 +178,19 @@ def test_the_citation_names_the_packages_version() -> None:
     assert re.findall(r"^version: (.+)$", citation, re.MULTILINE) == [__version__]
     assert re.findall(r"^license: (.+)$", citation, re.MULTILINE) == ["MIT"]
     assert "doi: 10.7906/indecs.18.4.8" in citation
+
+
+NAMED_TEST = re.compile(r"`(tests/[A-Za-z0-9_/.-]+\.py)::(test_\w+)`")
+
+
+@each_document
+def test_every_named_test_exists(document: Path) -> None:
+    named = NAMED_TEST.findall(text_of(document))
+    missing = [f"{path}::{name}" for path, name in named if f"def {name}(" not in source(path)]
+    assert not missing
+
+
+@cache
+def source(path: str) -> str:
+    """A file of the tests."""
+    return (ROOT / path).read_text("utf-8")
