@@ -124,6 +124,13 @@ class PrinterProfile(Record):
         """Thickest wall, mm, of perimeters alone; a thicker one has infill that fits any rest."""
         return 2 * self.slicer.perimeters * self.line_width
 
+    def counts_lines(self, thickness: Any) -> Any:
+        """Whether a standing wall of the `thickness`, mm, must be a whole number of lines.
+
+        One rule for declared and for measured walls; numbers and arrays give what they are.
+        """
+        return thickness <= self.thickest_wall_of_lines + 1e-6
+
     @property
     def volumetric_flow(self) -> float:
         """Plastic laid down at the print speed, mm³/s."""

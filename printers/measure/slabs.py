@@ -12,7 +12,7 @@ from typing import Literal
 
 import numpy as np
 
-from printers.arrays import Flags, Floats
+from printers.arrays import Flags, Floats, Ints
 from printers.measure.box_tree import first_hits
 from printers.measure.samples import Samples
 from printers.measure.surface import Surface
@@ -21,6 +21,7 @@ Filling = Literal["material", "air"]
 
 OFF_THE_SURFACE = 1e-6  # mm
 PARALLEL = float(np.cos(np.radians(8.0)))  # a taper this slight is a wall of varying thickness
+SAME_FACE = float(np.cos(np.radians(1.0)))  # normals this close belong to one plane face
 FLATNESS = 0.004  # mm: bend of a face across the probe; a cylinder of 20 mm radius has as much
 STEADY_RADIUS = 1.2  # mm: a curved wall must keep its thickness this far around
 STEADY_SPREAD = 0.06  # mm: twice the chord error of a facet on either side, with room for rounding
@@ -99,19 +100,52 @@ def flat(surface: Surface, slabs: Slabs, radius: float) -> Flags:
     return plane
 
 
-def steady(slabs: Slabs) -> Flags:
-    """(k,): slabs whose thickness stays the same all around, on flat and curved walls alike."""
+@dataclass(frozen=True)
+class Neighbours:
+    """Pairs of slabs within `STEADY_RADIUS` of each other on walls that turn by less than 60
+    degrees between them: numbers `first` (k,) and `second` (k,) of the slabs, each pair once."""
+
+    first: Ints
+    second: Ints
+
+
+def neighbours_of(slabs: Slabs) -> Neighbours:
+    """The pairs of slabs that are parts of one wall."""
     from scipy.spatial import cKDTree
 
     if not len(slabs.thickness):
-        return np.zeros(0, dtype=bool)
+        return Neighbours(np.zeros(0, dtype=np.int64), np.zeros(0, dtype=np.int64))
     found = cKDTree(slabs.middle).query_pairs(STEADY_RADIUS, output_type="ndarray")
     alike = np.einsum("ij,ij->i", slabs.normal[found[:, 0]], slabs.normal[found[:, 1]]) > 0.5
     first, second = found[alike].T
+    return Neighbours(first, second)
+
+
+def steady(slabs: Slabs, pairs: Neighbours) -> Flags:
+    """(k,): slabs whose thickness stays the same all around, on flat and curved walls alike."""
+    first, second = pairs.first, pairs.second
     uneven = np.abs(slabs.thickness[first] - slabs.thickness[second]) > STEADY_SPREAD
     result = np.ones(len(slabs.thickness), dtype=bool)
     result[first[uneven]] = False
     result[second[uneven]] = False
+    return result
+
+
+def turning(slabs: Slabs, pairs: Neighbours) -> Flags:
+    """(k,): slabs on whose opposite sides the wall turns, so that it is curved there.
+
+    A facet of a curved wall looks flat by itself; a flat wall turns on one side at most, where it
+    runs into a fillet. Walls that are flat on less than twice `STEADY_RADIUS` count as curved.
+    """
+    first, second = pairs.first, pairs.second
+    turned = np.einsum("ij,ij->i", slabs.normal[first], slabs.normal[second]) < SAME_FACE
+    here = np.concatenate([first[turned], second[turned]])
+    there = np.concatenate([second[turned], first[turned]])
+    step = slabs.middle[there] - slabs.middle[here]
+    side = np.zeros_like(slabs.middle)
+    np.add.at(side, here, step)
+    result = np.zeros(len(slabs.thickness), dtype=bool)
+    result[here[np.einsum("ij,ij->i", step, side[here]) < 0]] = True
     return result
 
 

@@ -9,13 +9,24 @@ import numpy as np
 
 from printers.arrays import Flags, Floats
 from printers.measure.boundary import Boundary
-from printers.measure.slabs import STEADY_SPREAD, Slabs, flat, measure_slabs, steady
+from printers.measure.curved_walls import curved_walls
+from printers.measure.slabs import (
+    STEADY_SPREAD,
+    Neighbours,
+    Slabs,
+    flat,
+    measure_slabs,
+    neighbours_of,
+    steady,
+    turning,
+)
 from printers.measure.surface import Surface
 from printers.model import DeclaredWall, WallKind
 from printers.profile import PrinterProfile
 from printers.tolerances import FACET_TOLERANCE, SMALLEST_AREA
 
 LINKED = 0.03  # mm: measured thicknesses closer than this belong together
+OPPOSITE = float(np.cos(np.radians(30.0)))  # plane faces that open up more widely are no wall
 LEVEL = float(np.cos(np.radians(10.0)))  # floors and roofs, whose thickness is counted in layers
 
 
@@ -68,13 +79,36 @@ def survey_walls(
 
 
 def _walls(surface: Surface, slabs: Slabs, profile: PrinterProfile) -> Iterator[MeasuredWall]:
-    parallel = slabs.chosen(slabs.parallel)
-    plane = flat(surface, parallel, profile.line_width)
-    constant = steady(slabs)[slabs.parallel]
-    level = np.abs(parallel.normal[:, 2]) >= LEVEL
-    standing = parallel.vertical & (parallel.thickness <= profile.thickest_wall_of_lines + 1e-6)
-    yield from _groups(parallel, standing & (plane | constant), "lines")
-    yield from _groups(parallel, level & plane, "layers")
+    pairs = neighbours_of(slabs)
+    plane = _plane(surface, slabs, profile.line_width)
+    counted = slabs.vertical & profile.counts_lines(slabs.thickness)
+    flat_walls = plane & ~turning(slabs, pairs)
+    curved = slabs.parallel & ~flat_walls
+    yield from _groups(slabs, counted & flat_walls, "lines")
+    yield from _curved(slabs, pairs, counted & curved, counted & flat_walls)
+    level = np.abs(slabs.normal[:, 2]) >= LEVEL
+    yield from _groups(slabs, level & plane & slabs.parallel, "layers")
+
+
+def _plane(surface: Surface, slabs: Slabs, radius: float) -> Flags:
+    """(k,): slabs between plane faces that lie opposite each other, parallel or tapering."""
+    result = slabs.facing >= OPPOSITE
+    result[result] = flat(surface, slabs.chosen(result), radius)
+    return result
+
+
+def _curved(
+    slabs: Slabs, pairs: Neighbours, curved: Flags, flat_walls: Flags
+) -> Iterator[MeasuredWall]:
+    """Curved walls: those of one thickness together, every one that tapers by itself."""
+    even = np.zeros(len(curved), dtype=bool)
+    for members in curved_walls(slabs, pairs, curved, flat_walls, steady(slabs, pairs)):
+        wall = _measured(slabs.chosen(members), "lines")
+        if wall.tapered:
+            yield wall
+        else:
+            even |= members
+    yield from _groups(slabs, even, "lines")
 
 
 def group_by_thickness(thickness: Floats, area: float) -> Iterator[Flags]:

@@ -39,10 +39,12 @@ def check_walls_as_declared(part: MeasuredPart) -> Iterator[RuleResult]:
 def _multiple(wall: DeclaredWall, profile: PrinterProfile) -> RuleResult:
     unit = _unit(wall.kind, profile)
     count = wall.thickness / unit
-    whole = abs(count - round(count)) <= WHOLE and round(count) >= 1
+    filled = wall.kind == "lines" and not profile.counts_lines(wall.thickness)
+    whole = filled or (abs(count - round(count)) <= WHOLE and round(count) >= 1)
+    most = f", more than the {2 * profile.slicer.perimeters} of all perimeters: infill fits the rest"
     message = (
         f"{wall.name} {wall.thickness:g} mm is {count:.4g} {wall.kind} of {unit:g} mm"
-        f"{'' if whole else ', not a whole number'}"
+        f"{most if filled else '' if whole else ', not a whole number'}"
     )
     return _whole_number("wall_multiple", whole, round(count, 4), wall.kind, wall.name, message)
 
