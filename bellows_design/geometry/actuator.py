@@ -15,7 +15,7 @@ import cadquery as cq
 
 from bellows_design.design.bellows_parameters import BellowsParameters
 from bellows_design.design.indent import Indent
-from bellows_design.design.lengths import SMALLEST_FEATURE, snapped_radius
+from bellows_design.design.lengths import FULL_ROUND_SNAP, SMALLEST_FEATURE, snapped_radius
 from bellows_design.design.port import Port
 from bellows_design.geometry.named_solids import (
     GeometryError,
@@ -37,7 +37,7 @@ OUTSIDE, CAVITY, ROOT, TIP, SYMMETRY, PORT = (
     "port",
 )
 BUBBLE_MIDDLE, GAP_MIDDLE = "bubble_middle", "gap_middle"
-CHANNEL_ENDS = (0.5, 0.25, 0.4, 0.75)
+CHANNEL_ENDS = (0.5, 0.25, 0.4, 0.75, 0.1)
 """Where the channel may end, in its fillets past the middle of the last chamber: the first is used
 unless the CAD kernel fails there."""
 
@@ -171,9 +171,13 @@ def _cavity(bellows: BellowsParameters, indent: Indent | None) -> NamedSolid:
                 return cavity
     raise GeometryError(
         "the CAD kernel cannot join the chambers and the air channel of this design; change "
-        f"inner_fillet = {bellows.inner_fillet:g} mm to {max(0.0, bellows.inner_fillet - 0.1):g} "
-        "mm or tendon_thickness by as much"
+        f"inner_fillet = {bellows.inner_fillet:g} mm to {_smaller(bellows.inner_fillet):g} mm"
     )
+
+
+def _smaller(fillet: float) -> float:
+    """An admissible fillet 0.1 mm below ``fillet``, or none."""
+    return fillet - 0.1 if fillet - 0.1 >= FULL_ROUND_SNAP else 0.0
 
 
 def _cavity_to(bellows: BellowsParameters, indent: Indent | None, end: float) -> NamedSolid:

@@ -11,51 +11,91 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from printers.arrays import Flags, Ints
-from printers.measure.slabs import STEADY_SPREAD, Neighbours, Slabs
-from printers.measure.surface import label
-from printers.tolerances import SMALLEST_AREA
+from printers.arrays import Flags, Floats, Ints
+from printers.measure.slabs import STEADY_SPREAD, Slabs
+from printers.measure.surface import Surface, label
+from printers.tolerances import FACET_TOLERANCE, SMALLEST_AREA
 
-MOST_OF_IT = (0.125, 0.875)
+SMOOTH = float(np.cos(np.radians(30.0)))  # facets of one curved face turn by less
+SAME_PLANE = float(np.cos(np.radians(1.0)))
+LEAST_BULGE = 1.5 * FACET_TOLERANCE  # mm
+ALIKE = float(np.cos(np.radians(16.0)))
+"""Faces of a curved wall: those of `slabs.PARALLEL`, and the turn of a facet."""
+
+A_TURN = float(np.cos(np.radians(60.0)))
+"""A wall that turns by more is curved on purpose; less is also found beside every round bore."""
+
+HALF_OF_IT = (0.25, 0.75)
 """Quantiles between which a curved wall must keep its thickness: at its rim, where it runs into a
 foot or a floor, it may grow."""
 
 
-def curved_walls(
-    slabs: Slabs, pairs: Neighbours, curved: Flags, flat: Flags, constant: Flags
-) -> Iterator[Flags]:
-    """Flags (k,) of the slabs of every curved wall, flat walls and their corners left out.
+def on_flat_faces(surface: Surface) -> Flags:
+    """(m,): triangles of flat faces; those of curved ones are facets.
 
-    `curved`, `flat` (k,): slabs on curved and on flat walls; `constant` (k,): slabs around which
-    the thickness stays the same. Parts that are nowhere constant are no walls: a round bore in a
-    block has none.
+    A facet of width w that turns by an angle δ to its neighbours lies w δ / 8 off the curve
+    through them; where that is within the tolerance of the mesh it is a facet. So are flat strips
+    that narrow, as no mesh can tell them apart.
     """
-    piece = _pieces(pairs, curved)
-    corners = np.unique(piece[_beside(pairs, curved, flat)])
-    for number in np.setdiff1d(np.unique(piece[curved]), corners):
-        members = piece == number
-        if (members & constant).sum() * slabs.area >= SMALLEST_AREA:
+    first, second, half_edge = surface.neighbours
+    cosine = np.einsum("ij,ij->i", surface.normals[first], surface.normals[second])
+    coplanar = cosine >= SAME_PLANE
+    face = label(len(surface.triangles), first[coplanar], second[coplanar])
+    bent = (cosine >= SMOOTH) & ~coplanar
+    ends = surface.vertices[surface.half_edges[half_edge[bent]]]
+    length = np.tile(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1), 2)
+    owner = np.concatenate([face[first[bent]], face[second[bent]]])
+    count = int(face.max(initial=-1)) + 1
+    rim = np.bincount(owner, length, count)
+    turn = np.bincount(owner, length * np.tile(np.arccos(cosine[bent]), 2), count)
+    area = np.bincount(face, surface.areas, count)
+    # The width is 2 area / rim, the mean angle turn / rim.
+    return np.asarray((area * turn > 4 * LEAST_BULGE * rim**2) | (rim == 0))[face]
+
+
+def curved_walls(
+    surface: Surface, slabs: Slabs, counted: Flags, flat: Flags, constant: Flags
+) -> Iterator[Flags]:
+    """Flags (k,) of the slabs of every curved standing wall, corners of flat walls left out.
+
+    `counted` (k,): slabs of standing walls; `flat` (k,): slabs between plane faces; `constant`
+    (k,): slabs around which the thickness stays the same. What neither turns nor stays constant is
+    no wall: a round bore in a block has none.
+    """
+    piece = _smooth_pieces(surface)[slabs.triangle]
+    curved = counted & ~flat & (slabs.facing >= ALIKE)
+    for number in np.setdiff1d(np.unique(piece[curved]), _with_flat_walls(slabs, piece, flat)):
+        members = curved & (piece == number)
+        area = members.sum() * slabs.area
+        steady_area = (members & constant).sum() * slabs.area
+        if steady_area >= SMALLEST_AREA or (area >= SMALLEST_AREA and _turns(slabs, members)):
             yield members & _typical(slabs, members)
 
 
-def _pieces(pairs: Neighbours, curved: Flags) -> Ints:
-    """(k,): number of the connected curved piece that every slab belongs to; -1 on others."""
-    inside = curved[pairs.first] & curved[pairs.second]
-    numbers = label(len(curved), pairs.first[inside], pairs.second[inside])
-    return np.where(curved, numbers, -1)
+def _smooth_pieces(surface: Surface) -> Ints:
+    """(m,): number of the piece of standing face without sharp edges that a triangle is part of."""
+    first, second, _ = surface.neighbours
+    standing = np.abs(surface.normals[:, 2]) <= np.sqrt(0.5)
+    turn = np.einsum("ij,ij->i", surface.normals[first], surface.normals[second])
+    smooth = (turn >= SMOOTH) & standing[first] & standing[second]
+    return label(len(surface.triangles), first[smooth], second[smooth])
 
 
-def _beside(pairs: Neighbours, curved: Flags, flat: Flags) -> Flags:
-    """(k,): curved slabs with a neighbour on a flat wall."""
-    result = np.zeros(len(curved), dtype=bool)
-    for here, there in ((pairs.first, pairs.second), (pairs.second, pairs.first)):
-        result[here[curved[here] & flat[there]]] = True
-    return result
+def _with_flat_walls(slabs: Slabs, piece: Ints, flat: Flags) -> Ints:
+    """Numbers of the pieces with a flat standing wall."""
+    numbers, counts = np.unique(piece[flat & slabs.vertical], return_counts=True)
+    return np.asarray(numbers[counts * slabs.area >= SMALLEST_AREA])
+
+
+def _turns(slabs: Slabs, members: Flags) -> bool:
+    normals: Floats = slabs.normal[members]
+    farthest = int((normals @ normals[0]).argmin())
+    return bool((normals @ normals[farthest]).min() <= A_TURN)
 
 
 def _typical(slabs: Slabs, members: Flags) -> Flags:
     """(k,): all slabs if the wall tapers, otherwise those about as thick as most of it."""
-    low, median, high = np.quantile(slabs.thickness[members], [MOST_OF_IT[0], 0.5, MOST_OF_IT[1]])
+    low, median, high = np.quantile(slabs.thickness[members], [HALF_OF_IT[0], 0.5, HALF_OF_IT[1]])
     if high - low > STEADY_SPREAD:
         return np.ones(len(members), dtype=bool)
     return np.asarray(np.abs(slabs.thickness - median) <= STEADY_SPREAD / 2)

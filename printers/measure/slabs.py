@@ -21,7 +21,6 @@ Filling = Literal["material", "air"]
 
 OFF_THE_SURFACE = 1e-6  # mm
 PARALLEL = float(np.cos(np.radians(8.0)))  # a taper this slight is a wall of varying thickness
-SAME_FACE = float(np.cos(np.radians(1.0)))  # normals this close belong to one plane face
 FLATNESS = 0.004  # mm: bend of a face across the probe; a cylinder of 20 mm radius has as much
 STEADY_RADIUS = 1.2  # mm: a curved wall must keep its thickness this far around
 STEADY_SPREAD = 0.06  # mm: twice the chord error of a facet on either side, with room for rounding
@@ -33,13 +32,14 @@ class Slabs:
 
     `thickness` (k,) mm along the normal; `middle` (k, 3) mm; `normal` (k, 3) of the starting face;
     `facing` (k,) cosine between the faces, 1 when parallel; `area` in mm² of the starting face
-    behind every entry.
+    behind every entry, and its `triangle` (k,).
     """
 
     thickness: Floats
     middle: Floats
     normal: Floats
     facing: Floats
+    triangle: Ints
     area: float
 
     def chosen(self, which: Flags) -> Slabs:
@@ -49,6 +49,7 @@ class Slabs:
             self.middle[which],
             self.normal[which],
             self.facing[which],
+            self.triangle[which],
             self.area,
         )
 
@@ -79,6 +80,7 @@ def measure_slabs(surface: Surface, samples: Samples, filling: Filling, reach: f
         samples.points + np.where(hit, thickness, 0.0)[:, None] / 2 * direction,
         samples.normals,
         facing,
+        samples.triangle,
         samples.area,
     )
     return found.chosen(hit)
@@ -100,52 +102,19 @@ def flat(surface: Surface, slabs: Slabs, radius: float) -> Flags:
     return plane
 
 
-@dataclass(frozen=True)
-class Neighbours:
-    """Pairs of slabs within `STEADY_RADIUS` of each other on walls that turn by less than 60
-    degrees between them: numbers `first` (k,) and `second` (k,) of the slabs, each pair once."""
-
-    first: Ints
-    second: Ints
-
-
-def neighbours_of(slabs: Slabs) -> Neighbours:
-    """The pairs of slabs that are parts of one wall."""
+def steady(slabs: Slabs) -> Flags:
+    """(k,): slabs whose thickness stays the same all around, on flat and curved walls alike."""
     from scipy.spatial import cKDTree
 
     if not len(slabs.thickness):
-        return Neighbours(np.zeros(0, dtype=np.int64), np.zeros(0, dtype=np.int64))
+        return np.zeros(0, dtype=bool)
     found = cKDTree(slabs.middle).query_pairs(STEADY_RADIUS, output_type="ndarray")
     alike = np.einsum("ij,ij->i", slabs.normal[found[:, 0]], slabs.normal[found[:, 1]]) > 0.5
     first, second = found[alike].T
-    return Neighbours(first, second)
-
-
-def steady(slabs: Slabs, pairs: Neighbours) -> Flags:
-    """(k,): slabs whose thickness stays the same all around, on flat and curved walls alike."""
-    first, second = pairs.first, pairs.second
     uneven = np.abs(slabs.thickness[first] - slabs.thickness[second]) > STEADY_SPREAD
     result = np.ones(len(slabs.thickness), dtype=bool)
     result[first[uneven]] = False
     result[second[uneven]] = False
-    return result
-
-
-def turning(slabs: Slabs, pairs: Neighbours) -> Flags:
-    """(k,): slabs on whose opposite sides the wall turns, so that it is curved there.
-
-    A facet of a curved wall looks flat by itself; a flat wall turns on one side at most, where it
-    runs into a fillet. Walls that are flat on less than twice `STEADY_RADIUS` count as curved.
-    """
-    first, second = pairs.first, pairs.second
-    turned = np.einsum("ij,ij->i", slabs.normal[first], slabs.normal[second]) < SAME_FACE
-    here = np.concatenate([first[turned], second[turned]])
-    there = np.concatenate([second[turned], first[turned]])
-    step = slabs.middle[there] - slabs.middle[here]
-    side = np.zeros_like(slabs.middle)
-    np.add.at(side, here, step)
-    result = np.zeros(len(slabs.thickness), dtype=bool)
-    result[here[np.einsum("ij,ij->i", step, side[here]) < 0]] = True
     return result
 
 

@@ -9,16 +9,13 @@ import numpy as np
 
 from printers.arrays import Flags, Floats
 from printers.measure.boundary import Boundary
-from printers.measure.curved_walls import curved_walls
+from printers.measure.curved_walls import curved_walls, on_flat_faces
 from printers.measure.slabs import (
     STEADY_SPREAD,
-    Neighbours,
     Slabs,
     flat,
     measure_slabs,
-    neighbours_of,
     steady,
-    turning,
 )
 from printers.measure.surface import Surface
 from printers.model import DeclaredWall, WallKind
@@ -79,13 +76,12 @@ def survey_walls(
 
 
 def _walls(surface: Surface, slabs: Slabs, profile: PrinterProfile) -> Iterator[MeasuredWall]:
-    pairs = neighbours_of(slabs)
     plane = _plane(surface, slabs, profile.line_width)
     counted = slabs.vertical & profile.counts_lines(slabs.thickness)
-    flat_walls = plane & ~turning(slabs, pairs)
-    curved = slabs.parallel & ~flat_walls
-    yield from _groups(slabs, counted & flat_walls, "lines")
-    yield from _curved(slabs, pairs, counted & curved, counted & flat_walls)
+    straight = plane & on_flat_faces(surface)[slabs.triangle]
+    yield from _groups(slabs, counted & straight, "lines")
+    curved = curved_walls(surface, slabs, counted, straight, steady(slabs))
+    yield from _curved(slabs, curved)
     level = np.abs(slabs.normal[:, 2]) >= LEVEL
     yield from _groups(slabs, level & plane & slabs.parallel, "layers")
 
@@ -97,12 +93,10 @@ def _plane(surface: Surface, slabs: Slabs, radius: float) -> Flags:
     return result
 
 
-def _curved(
-    slabs: Slabs, pairs: Neighbours, curved: Flags, flat_walls: Flags
-) -> Iterator[MeasuredWall]:
+def _curved(slabs: Slabs, found: Iterator[Flags]) -> Iterator[MeasuredWall]:
     """Curved walls: those of one thickness together, every one that tapers by itself."""
-    even = np.zeros(len(curved), dtype=bool)
-    for members in curved_walls(slabs, pairs, curved, flat_walls, steady(slabs, pairs)):
+    even = np.zeros(len(slabs.thickness), dtype=bool)
+    for members in found:
         wall = _measured(slabs.chosen(members), "lines")
         if wall.tapered:
             yield wall

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
@@ -24,7 +25,8 @@ def check_declared_gaps(part: MeasuredPart) -> Iterator[RuleResult]:
     for gap in part.model.gaps:
         open_ = gap.width >= part.profile.minimum_gap - 1e-9
         message = f"{gap.name} {gap.width:g} mm {_against(open_, part.profile)}"
-        yield _result("gap", open_, gap.width, part.profile.minimum_gap, gap.name, message)
+        result = _result("gap", open_, gap.width, part.profile.minimum_gap, gap.name, message)
+        yield replace(result, uncertainty=None)
 
 
 def check_measured_gaps(part: MeasuredPart) -> Iterator[RuleResult]:
@@ -77,7 +79,8 @@ def _as_declared(gap: DeclaredGap, slabs: Slabs) -> RuleResult:
 def _result(
     rule: str, good: bool, measured: float | str, required: float, where: str, message: str
 ) -> RuleResult:
-    return RuleResult(rule, pass_or_fail(good), measured, required, "mm", where, message)
+    verdict = pass_or_fail(good)
+    return RuleResult(rule, verdict, measured, required, "mm", where, message, FACET_TOLERANCE)
 
 
 def _inside(scope: str) -> str:

@@ -7,6 +7,7 @@ declared wall is judged by its number, and the mesh is measured to see that it s
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from printers.measure.part import MeasuredPart
 from printers.measure.wall_survey import MeasuredWall, WallSurvey
@@ -33,7 +34,8 @@ def check_measured_walls(part: MeasuredPart) -> Iterator[RuleResult]:
 def check_walls_as_declared(part: MeasuredPart) -> Iterator[RuleResult]:
     """A declared wall must be found on the mesh, between parallel faces, as thick as declared."""
     for wall in part.model.walls:
-        yield _as_declared(wall, part.walls)
+        if wall.around is None:
+            yield _as_declared(wall, part.walls)
 
 
 def _multiple(wall: DeclaredWall, profile: PrinterProfile) -> RuleResult:
@@ -57,7 +59,10 @@ def _multiple_measured(wall: MeasuredWall, profile: PrinterProfile) -> RuleResul
     off = abs(wall.thickness - max(round(count), 1) * unit) > tolerance
     good, where = not (off or wall.tapered), place(wall.place)
     message = _describe(wall, count, off, tolerance)
-    return _whole_number("wall_multiple_measured", good, round(count, 2), wall.kind, where, message)
+    result = _whole_number(
+        "wall_multiple_measured", good, round(count, 2), wall.kind, where, message
+    )
+    return replace(result, uncertainty=round(tolerance / unit, 3))
 
 
 def _whole_number(
@@ -82,6 +87,7 @@ def _as_declared(wall: DeclaredWall, survey: WallSurvey) -> RuleResult:
         "mm",
         wall.name,
         f"{wall.name} {wall.thickness:g} mm {message}",
+        FACET_TOLERANCE,
     )
 
 
