@@ -54,16 +54,16 @@ def on_flat_faces(surface: Surface) -> Flags:
 
 
 def curved_walls(
-    surface: Surface, slabs: Slabs, counted: Flags, flat: Flags, constant: Flags
+    surface: Surface, slabs: Slabs, curved: Flags, flat: Flags, constant: Flags
 ) -> Iterator[Flags]:
     """Flags (k,) of the slabs of every curved standing wall, corners of flat walls left out.
 
-    `counted` (k,): slabs of standing walls; `flat` (k,): slabs between plane faces; `constant`
-    (k,): slabs around which the thickness stays the same. What neither turns nor stays constant is
-    no wall: a round bore in a block has none.
+    `curved` (k,): slabs of standing curved faces; `flat` (k,): those of flat walls; `constant` (k,):
+    slabs around which the thickness stays the same. What neither turns nor stays constant is no
+    wall: a narrow bore in a block has none.
     """
     piece = _smooth_pieces(surface)[slabs.triangle]
-    curved = counted & ~flat & (slabs.facing >= ALIKE)
+    curved = curved & (slabs.facing >= ALIKE)
     for number in np.setdiff1d(np.unique(piece[curved]), _with_flat_walls(slabs, piece, flat)):
         members = curved & (piece == number)
         area = members.sum() * slabs.area

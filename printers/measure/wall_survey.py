@@ -78,10 +78,10 @@ def survey_walls(
 def _walls(surface: Surface, slabs: Slabs, profile: PrinterProfile) -> Iterator[MeasuredWall]:
     plane = _plane(surface, slabs, profile.line_width)
     counted = slabs.vertical & profile.counts_lines(slabs.thickness)
-    straight = plane & on_flat_faces(surface)[slabs.triangle]
+    on_flat, constant = on_flat_faces(surface)[slabs.triangle], steady(slabs)
+    straight = on_flat & (plane | (constant & slabs.parallel))
     yield from _groups(slabs, counted & straight, "lines")
-    curved = curved_walls(surface, slabs, counted, straight, steady(slabs))
-    yield from _curved(slabs, curved)
+    yield from _curved(slabs, curved_walls(surface, slabs, counted & ~on_flat, straight, constant))
     level = np.abs(slabs.normal[:, 2]) >= LEVEL
     yield from _groups(slabs, level & plane & slabs.parallel, "layers")
 

@@ -91,15 +91,15 @@ def _frame(opening: Opening, points: Floats) -> tuple[Floats, Floats]:
 
 
 def _as_declared(wall: DeclaredWall, opening: Opening, thickness: float | None) -> RuleResult:
-    where, required = f"around {opening.name}", round(wall.thickness, 4)
+    where, required = wall.name, round(wall.thickness, 4)
     name = f"{wall.name} {wall.thickness:g} mm"
     if thickness is None:
         message = f"{name} was not found: no bore of that radius lies behind {opening.name}"
         return RuleResult("wall_as_declared", "fail", "none", required, "mm", where, message)
     found = abs(thickness - wall.thickness) <= FACET_TOLERANCE + ROUNDING
     message = (
-        f"{name} {'was' if found else 'is not what was'} measured {where}: {thickness:.3f} mm at "
-        "the narrowest"
+        f"{name} {'was' if found else 'is not what was'} measured around {opening.name}: "
+        f"{thickness:.3f} mm at the narrowest"
     )
     return RuleResult(
         "wall_as_declared",

@@ -43,7 +43,9 @@ def _multiple(wall: DeclaredWall, profile: PrinterProfile) -> RuleResult:
     count = wall.thickness / unit
     filled = wall.kind == "lines" and not profile.counts_lines(wall.thickness)
     whole = filled or (abs(count - round(count)) <= WHOLE and round(count) >= 1)
-    most = f", more than the {2 * profile.slicer.perimeters} of all perimeters: infill fits the rest"
+    most = (
+        f", more than the {2 * profile.slicer.perimeters} of all perimeters: infill fits the rest"
+    )
     message = (
         f"{wall.name} {wall.thickness:g} mm is {count:.4g} {wall.kind} of {unit:g} mm"
         f"{most if filled else '' if whole else ', not a whole number'}"
