@@ -70,7 +70,7 @@ class SlicerAdvice(Record):
     retraction: bool
     supports: bool
     seam: Text
-    sources: tuple[Text, ...] = Field(min_length=1)
+    sources: tuple[Text, ...] = Field(min_length=1, strict=False)
 
 
 class PrinterProfile(Record):
@@ -102,7 +102,7 @@ class PrinterProfile(Record):
     layer_height: float = _quantity("mm", ge=0.02, le=1.5)
     minimum_lines: int = Field(ge=1, le=20)
     minimum_solid_layers: int = Field(ge=1, le=200)
-    build_volume: tuple[Side, Side, Side] = _quantity("mm")
+    build_volume: tuple[Side, Side, Side] = _quantity("mm", strict=False)
     minimum_gap: float = _quantity("mm", ge=0.05, le=10)
     maximum_bridge: float = _quantity("mm", ge=0.5, le=200)
     maximum_overhang_angle: float = _quantity("degrees", ge=10, le=90)

@@ -19,7 +19,13 @@ from pathlib import Path
 from typing import Any
 
 from bellows_design.errors import DesignError
-from bellows_design.validation.quoting import did_you_mean, quoted, quoted_path, quoted_reason
+from bellows_design.validation.quoting import (
+    did_you_mean,
+    quoted,
+    quoted_path,
+    quoted_reason,
+    shown,
+)
 
 Table = dict[str, Any]
 
@@ -28,6 +34,9 @@ LARGEST_FILE = 1_000_000
 
 MOST_DOTS = 100
 """In a line, outside of quoted text: reading a key takes time as the square of its parts."""
+
+LONGEST_REASON = 250
+"""Characters of what the parser says, its place in the file included."""
 
 _QUOTED_TEXT = re.compile(r"""\"(?:[^"\\]|\\.?)*+\"?|'[^']*+'?""")
 
@@ -90,6 +99,11 @@ def toml_table(text: str, subject: str) -> Table:
     """``text`` as a table; raises ``DesignError`` with a sentence on ``subject``."""
     try:
         return parse_toml(text)
+    except tomllib.TOMLDecodeError as error:
+        from printers.toml_errors import toml_error  # not at the start: it comes with NumPy
+
+        reason = shown(toml_error(error, text), LONGEST_REASON)
+        raise DesignError(f"{subject} is not valid TOML: {reason}.") from None
     except ValueError as error:
         raise DesignError(f"{subject} is not valid TOML: {quoted_reason(error)}.") from None
 

@@ -58,9 +58,9 @@ def curved_walls(
 ) -> Iterator[Flags]:
     """Flags (k,) of the slabs of every curved standing wall, corners of flat walls left out.
 
-    `curved` (k,): slabs of standing curved faces; `flat` (k,): those of flat walls; `constant` (k,):
-    slabs around which the thickness stays the same. What neither turns nor stays constant is no
-    wall: a narrow bore in a block has none.
+    `curved` (k,): slabs of standing curved faces; `flat` (k,): those of flat walls; `constant`
+    (k,): slabs around which the thickness stays the same. What neither turns nor stays constant is
+    no wall: a narrow bore in a block has none.
     """
     piece = _smooth_pieces(surface)[slabs.triangle]
     curved = curved & (slabs.facing >= ALIKE)

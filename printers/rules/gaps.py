@@ -72,7 +72,8 @@ def _as_declared(gap: DeclaredGap, slabs: Slabs) -> RuleResult:
     message = f"{gap.name} {gap.width:g} mm was measured on {area:.0f} mm²"
     if not found:
         measured = round(float(np.median(widths)), 3) if len(widths) else "none"
-        message = f"{gap.name} {gap.width:g} mm was found nowhere outside (median gap: {measured})"
+        other = f"the median gap is {measured} mm" if len(widths) else "no walls face each other"
+        message = f"{gap.name} {gap.width:g} mm was found nowhere outside, where {other}"
     return _result("gap_as_declared", found, measured, gap.width, gap.name, message)
 
 

@@ -18,7 +18,7 @@ from printers.measure.samples import sample
 from printers.measure.surface import Surface, label
 from printers.model import DeclaredWall, Opening
 from printers.profile import PrinterProfile
-from printers.report import RuleResult, pass_or_fail, place
+from printers.report import RuleResult, pass_or_fail
 from printers.tolerances import FACET_TOLERANCE, ROUNDING, SMALLEST_AREA
 
 SAMPLES_PER_SQUARE_MILLIMETRE = 40.0
