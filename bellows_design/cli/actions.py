@@ -49,20 +49,19 @@ def design(options: DesignOptions, output: Path) -> Answer:
     return Answer(content, [f"{output}: {triangles} triangles, {volume / 1000:.2f} cm³"])
 
 
-def check(options: DesignOptions, printer: str | None) -> Answer:
-    """Check the part on the design's printer, or on another by name or path."""
+def check(options: DesignOptions) -> Answer:
+    """Check the part on its printer."""
     from bellows_design import pipeline
     from bellows_design.progress import on_stderr
     from bellows_design.reports.check import check_table
-    from printers import load_profile
 
     chosen = options.load()
-    load_profile(printer or chosen.printer)
+    chosen.profile()
     with on_stderr() as progress:
         progress.stage("geometry")
         part = pipeline.build_part(chosen)
         progress.stage("check")
-        report = pipeline.check(chosen, part, printer)
+        report = pipeline.check(chosen, part)
     status = DONE if report.verdict == "pass" else REFUSED
     return Answer(pipeline.check_dict(chosen, report), check_table(chosen, report), status)
 
@@ -99,10 +98,9 @@ def run(options: DesignOptions, output: Path, limits: BudgetOptions) -> Answer:
     from bellows_design import pipeline
     from bellows_design.progress import on_stderr
     from bellows_design.reports.outcome import outcome_table
-    from printers import load_profile
 
     chosen = options.load(rename=True)
-    load_profile(chosen.printer)
+    chosen.profile()
     budget = limits.budget()
     with on_stderr() as progress:
         outcome = pipeline.run(chosen, output, progress, budget)

@@ -86,8 +86,8 @@ def check(
     as_json: AsJson = False,
 ) -> None:
     """Check the part against the rules of a printer."""
-    options = DesignOptions(name, tuple(settings or ()))
-    answer(lambda: actions.check(options, printer), as_json)
+    options = DesignOptions(name, tuple(settings or ()), printer)
+    answer(lambda: actions.check(options), as_json)
 
 
 @app.command()
@@ -114,13 +114,14 @@ def evaluate(
 def run(
     name: DesignName,
     output: Annotated[Path, typer.Option(help="Folder of the approved models.")] = Path("exports"),
+    printer: Printer = None,
     settings: Settings = None,
     memory: Memory = None,
     mesh_seconds: MeshSeconds = None,
     as_json: AsJson = False,
 ) -> None:
     """Design, check, evaluate, decide, and export what is approved."""
-    options = DesignOptions(name, tuple(settings or ()))
+    options = DesignOptions(name, tuple(settings or ()), printer)
     limits = BudgetOptions(memory, mesh_seconds)
     answer(lambda: actions.run(options, output, limits), as_json)
 

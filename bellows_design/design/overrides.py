@@ -19,6 +19,7 @@ from bellows_design.files.toml_files import parse_toml
 from bellows_design.materials.material import Material
 from bellows_design.validation.quoting import did_you_mean, quoted, quoted_reason
 from bellows_design.validation.sentences import nested_model, unit_at
+from printers import PrinterProfile
 
 _WORD = re.compile(r"[A-Za-z_][A-Za-z0-9_-]*")
 _TOML_WORDS = ("true", "false", "inf", "nan")
@@ -63,7 +64,7 @@ def _dotted(model: type[BaseModel], prefix: str = "") -> Iterator[str]:
         inner = nested_model(field)
         if inner is not BellowsParameters:
             yield prefix + name
-        if inner is not None and inner is not BellowsParameters:
+        if inner not in (None, BellowsParameters, PrinterProfile):
             yield from _dotted(inner, f"{prefix}{name}.")
 
 
@@ -89,8 +90,9 @@ def _holds_text(key: str) -> bool:
     *parents, last = key.split(".")
     for name in parents:
         model = nested_model(model.model_fields[name]) or model
-    annotation = model.model_fields[last].annotation
-    return annotation is str or annotation is Material  # a material is known by its name or file
+    field = model.model_fields[last]
+    # Materials and printers are known by their names or files.
+    return field.annotation is str or nested_model(field) in (Material, PrinterProfile)
 
 
 def _value(key: str, text: str, unit: str | None) -> Any:

@@ -72,12 +72,19 @@ class TomlLibrary:
 
     def named_or_at(self, name_or_path: str | Path) -> Table:
         """The file of that name, else the file at that path. Raises ``DesignError``."""
-        path, given = Path(name_or_path), str(name_or_path)
+        path = self.path_of(name_or_path)
+        if path is None:
+            return self.named(str(name_or_path))
+        return read_toml(path, str(path), self.noun)
+
+    def path_of(self, name_or_path: str | Path) -> Path | None:
+        """The path that is meant; None where it is the name of one of these files."""
+        path = Path(name_or_path)
         if isinstance(name_or_path, str):
             is_path = path.suffix == ".toml" or len(path.parts) > 1 or os.path.exists(path)
-            if given in self._by_name() or not is_path:
-                return self.named(given)
-        return read_toml(path, given, self.noun)
+            if name_or_path in self._by_name() or not is_path:
+                return None
+        return path
 
     def _by_name(self) -> dict[str, Traversable]:
         return dict(reversed(list(self._found())))
