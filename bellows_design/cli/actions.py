@@ -11,9 +11,12 @@ from typing import TYPE_CHECKING
 
 from bellows_design.cli.answer import DONE, NOT_SOLVED, REFUSED, Answer
 from bellows_design.cli.output_files import require_file, require_folder, require_plot
+from bellows_design.errors import DesignError
+from bellows_design.validation.quoting import quoted
 
 if TYPE_CHECKING:
     from bellows_design.cli.options import BudgetOptions, DesignOptions
+    from bellows_design.cli.templates import Kind
 
 
 def list_designs() -> Answer:
@@ -22,6 +25,20 @@ def list_designs() -> Answer:
 
     designs = {name: load_design(name).description for name in shipped_designs()}
     return Answer({"designs": designs}, [f"{name:22} {text}" for name, text in designs.items()])
+
+
+def init(kind: Kind, file: Path, force: bool) -> Answer:
+    """Write a commented file to start from; replace another only if ``force`` says so."""
+    from bellows_design.cli.templates import name_from, template
+    from bellows_design.files.atomic import replacing
+
+    require_file(file, ".toml")
+    if file.exists() and not force:
+        raise DesignError(f"{quoted(str(file))} is there already; --force replaces it.")
+    text = template(kind, name_from(file.stem))
+    with replacing(file) as temporary:
+        temporary.write_text(text, "utf-8")
+    return Answer({"kind": kind.value, "file": str(file)}, [f"{file}: a {kind.value}"])
 
 
 def design(options: DesignOptions, output: Path) -> Answer:

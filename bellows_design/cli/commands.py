@@ -32,6 +32,7 @@ from bellows_design.cli.options import (
     Vtu,
     YieldStrength,
 )
+from bellows_design.cli.templates import Kind
 from bellows_design.materials.laws import BEST
 
 app = typer.Typer(
@@ -62,6 +63,19 @@ def _root(
 def list_designs(as_json: AsJson = False) -> None:
     """Name the shipped designs."""
     answer(actions.list_designs, as_json)
+
+
+@app.command()
+def init(
+    kind: Annotated[Kind, typer.Argument(metavar="KIND", help="design, printer or material.")],
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="File to write: .toml.")],
+    force: Annotated[
+        bool, typer.Option("--force", help="Replace the file if it is there.")
+    ] = False,
+    as_json: AsJson = False,
+) -> None:
+    """Write a commented design, printer or material to start from."""
+    answer(lambda: actions.init(kind, file, force), as_json)
 
 
 @app.command()

@@ -64,11 +64,14 @@ class Design(Parameters):
     """
 
     name: str = Field(description="letters, digits, _ and -, at most 64; names files and folders")
-    description: str = Field(default="", max_length=2000)
+    description: str = Field(default="", max_length=2000, description="one line of text")
     bellows: BellowsParameters
     indent: Indent | None = None
     port: Port = Field(default_factory=Port)
-    material: Material = Field(default_factory=lambda: load_material("ninjaflex"))
+    material: Material = Field(
+        default_factory=lambda: load_material("ninjaflex"),
+        description="name of a material of the library, a TOML file, or a table",
+    )
     load: Load = Field(default_factory=Load)
     printer: str | PrinterProfile = Field(
         default="prusa_i3", description="name of a printer profile, a TOML file, or a table"

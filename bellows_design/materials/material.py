@@ -68,7 +68,9 @@ class Material(Parameters):
             ``Design`` and ``load_material`` make sentences of it.
     """
 
-    name: str = Field(default="custom", min_length=1, max_length=64)
+    name: str = Field(
+        default="custom", min_length=1, max_length=64, description="at most 64 characters"
+    )
     model: str = Field(default="ogden", description="name of the material's law")
     mu: tuple[float, ...] = Field(
         max_length=6,
@@ -87,14 +89,23 @@ class Material(Parameters):
         description="constants of a law that is no case of Ogden's",
         json_schema_extra={"unit": "MPa"},
     )
-    yield_strength: float = Field(ge=0.01, le=200, json_schema_extra={"unit": "MPa"})
+    yield_strength: float = Field(
+        ge=0.01,
+        le=200,
+        description="highest von Mises stress unless the design limits it",
+        json_schema_extra={"unit": "MPa"},
+    )
     elongation_at_break: float | None = Field(
-        default=None, ge=20, le=3000, json_schema_extra={"unit": "%"}
+        default=None,
+        ge=20,
+        le=3000,
+        description="nominal strain at break in a tensile test",
+        json_schema_extra={"unit": "%"},
     )
     valid_strain: tuple[Strain, Strain] | None = Field(
         default=None, description="lowest and highest principal nominal strain of the tests"
     )
-    source: str = Field(default="", max_length=1000)
+    source: str = Field(default="", max_length=1000, description="where the numbers are from")
 
     @model_validator(mode="before")
     @classmethod
@@ -246,7 +257,8 @@ def _check_stability(material: Material) -> None:
     require(
         found.covers(max(1 + low, LOWEST), min(1 + high, HIGHEST)),
         f"material.{_names_of_softening(material)}: with "
-        f"{list(material.higher or material.constants)} MPa, {worst.mode} tests are stable only at stretches from {worst.lowest:.3g} to "
+        f"{list(material.higher or material.constants)} MPa, "
+        f"{worst.mode} tests are stable only at stretches from {worst.lowest:.3g} to "
         f"{worst.highest:.3g}, less than valid_strain says (all stretches, without one)",
     )
 
