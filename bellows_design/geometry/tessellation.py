@@ -62,19 +62,20 @@ def _triangulated(
     from OCP.BRepMesh import BRepMesh_IncrementalMesh
     from OCP.BRepTools import BRepTools
 
+    misses = []
     for angle in ANGULAR_TOLERANCES:
         BRepTools.Clean_s(solid.wrapped)
         BRepMesh_IncrementalMesh(solid.wrapped, tolerance, False, angle, False)
         missed = _farthest(solid, tolerance)
         if missed is None:
-            break
-    else:
-        raise TessellationError(
-            f"no mesh of this design keeps within {tolerance:g} mm of it: the best is "
-            f"{missed.distance:.3g} mm off at {missed.place}; change the fillet there by 0.1 mm "
-            "(inner_fillet in the cavity, outer_fillet outside)"
-        )
-    return _joined([_mesh_of(face) for face in solid.Faces()])
+            return _joined([_mesh_of(face) for face in solid.Faces()])
+        misses.append(missed)
+    best = min(misses, key=lambda miss: miss.distance)
+    raise TessellationError(
+        f"no mesh of this design keeps within {tolerance:g} mm of it: the best is "
+        f"{best.distance:.3g} mm off at {best.place}; change the fillet there by 0.1 mm "
+        "(inner_fillet in the cavity, outer_fillet outside)"
+    )
 
 
 def _joined(

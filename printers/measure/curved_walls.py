@@ -53,6 +53,17 @@ def on_flat_faces(surface: Surface) -> Flags:
     return np.asarray((area * turn > 4 * LEAST_BULGE * rim**2) | (rim == 0))[face]
 
 
+def facet_turn(surface: Surface) -> Floats:
+    """(m,): degrees by which a facet turns to its neighbours at most; 0 on flat faces."""
+    first, second, _ = surface.neighbours
+    cosine = np.einsum("ij,ij->i", surface.normals[first], surface.normals[second])
+    turn = np.where(cosine >= SMOOTH, np.degrees(np.arccos(np.clip(cosine, -1, 1))), 0.0)
+    result = np.zeros(len(surface.triangles))
+    np.maximum.at(result, first, turn)
+    np.maximum.at(result, second, turn)
+    return np.where(on_flat_faces(surface), 0.0, result)
+
+
 def curved_walls(
     surface: Surface, slabs: Slabs, curved: Flags, flat: Flags, constant: Flags
 ) -> Iterator[Flags]:
