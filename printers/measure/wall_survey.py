@@ -127,7 +127,8 @@ def _groups(slabs: Slabs, which: Flags, kind: WallKind) -> Iterator[MeasuredWall
 
 def _measured(slabs: Slabs, kind: WallKind) -> MeasuredWall:
     low, median, high = np.quantile(slabs.thickness, [0.01, 0.5, 0.99])
-    typical = np.abs(slabs.thickness - median) <= max(FACET_TOLERANCE, (high - low) / 4)
+    off = np.abs(slabs.thickness - median)
+    typical = off <= max(FACET_TOLERANCE, (high - low) / 4, float(off.min()))
     # A real point of such a wall, nearest to the middle of them all: the mean of several walls
     # would lie in the air between them.
     middles = slabs.middle[typical]

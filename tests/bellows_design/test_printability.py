@@ -12,7 +12,7 @@ from bellows_design.geometry.tessellation import tessellate
 from bellows_design.printability import printed_model
 from printers import PrintabilityReport, check_printability, load_profile
 
-SHORT = ("offset=5.6", "length=10", "number_of_bubbles=1")
+SHORT = ("offset=14", "length=18.4", "number_of_bubbles=1", "indent=none")
 
 
 @cache

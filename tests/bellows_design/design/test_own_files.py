@@ -1,4 +1,4 @@
-"""Printers and materials of one's own: by file, relative to the design, and whole in what is kept."""
+"""Printers and materials of one's own: by file, and whole in what is kept."""
 
 from __future__ import annotations
 
