@@ -133,7 +133,7 @@ def check(design: Design, part: Part, printer: str | None = None) -> Printabilit
     from bellows_design.printability import printed_model
     from printers import check_printability, load_profile
 
-    profile = load_profile(printer or design.printer)
+    profile = design.profile() if printer is None else load_profile(printer)
     return check_printability(printed_model(design, part.mesh), profile)
 
 
@@ -158,6 +158,7 @@ def _grounds(found: Outcome) -> dict[str, Any]:
 
     return {
         "design": found.design.model_dump(mode="json", exclude_none=True),
+        "printer": found.design.profile().model_dump(mode="json"),
         "mesh_tolerance_mm": TOLERANCE,
         "check": check_dict(found.design, found.report),
         "evaluation": found.evaluation.to_dict(),

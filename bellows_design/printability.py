@@ -26,7 +26,7 @@ def declared_walls(design: Design) -> tuple[DeclaredWall, ...]:
     standing = (
         DeclaredWall("bubble_thickness", design.bellows.bubble_thickness),
         DeclaredWall("tendon_thickness", design.bellows.tendon_thickness),
-        DeclaredWall("port.wall", design.port.wall),
+        DeclaredWall("port.wall", design.port.wall, around=port_opening(design)),
     )
     if design.indent is None:
         return standing

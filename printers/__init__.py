@@ -6,11 +6,15 @@ Lengths are in mm, angles in degrees; the build direction is +z.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING, Any
+
 from printers.errors import PrintersError
-from printers.model import DeclaredGap, DeclaredWall, Opening, PrintedModel
 from printers.profile import PrinterProfile, SlicerAdvice
 from printers.profile_files import available_profiles, load_profile
 from printers.report import PrintabilityReport, RuleResult
+
+if TYPE_CHECKING:
+    from printers.model import DeclaredGap, DeclaredWall, Opening, PrintedModel
 
 __all__ = [
     "DeclaredGap",
@@ -26,6 +30,15 @@ __all__ = [
     "check_printability",
     "load_profile",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    """The records of a part, which need NumPy: imported when they are first asked for."""
+    if name not in ("DeclaredGap", "DeclaredWall", "Opening", "PrintedModel"):
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    from printers import model
+
+    return getattr(model, name)
 
 
 def check_printability(model: PrintedModel, profile: PrinterProfile) -> PrintabilityReport:

@@ -16,6 +16,7 @@ from printers.rules.airtightness import check_airtightness
 from printers.rules.envelope import check_bed_contact, check_build_volume, check_cross_section
 from printers.rules.gaps import check_declared_gaps, check_measured_gaps
 from printers.rules.integrity import check_one_body, check_self_intersection, check_watertight
+from printers.rules.opening_walls import check_opening_walls
 from printers.rules.openings import check_openings
 from printers.rules.overhangs import check_overhangs
 from printers.rules.sealing_walls import check_sealing_walls
@@ -42,6 +43,7 @@ RULES_FOR_SOLIDS: tuple[Rule, ...] = (
     check_measured_walls,
     check_walls_as_declared,
     check_sealing_walls,
+    check_opening_walls,
     check_measured_gaps,
     check_overhangs,
     check_openings,

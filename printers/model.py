@@ -32,6 +32,8 @@ class DeclaredWall:
         thickness: mm.
         kind: What it is made of: "lines" side by side (a standing wall) or "layers" on top of each
             other (a floor or roof).
+        around: The opening whose bore it surrounds; such a wall is looked for and measured there
+            alone. None for walls that may be anywhere.
 
     Raises:
         PrintersError: The thickness is not within (0, 100] mm or the kind is unknown.
@@ -40,6 +42,7 @@ class DeclaredWall:
     name: str
     thickness: float
     kind: WallKind = "lines"
+    around: Opening | None = None
 
     def __post_init__(self) -> None:
         _require_length(f"wall {self.name}", self.thickness)

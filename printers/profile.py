@@ -20,9 +20,9 @@ def _printable(text: str) -> str:
     return text
 
 
-def _quantity(unit: str, **bounds: Any) -> Any:
-    """A field in the unit, within the bounds (ge, gt, le)."""
-    return Field(**bounds, json_schema_extra={"unit": unit})
+def _quantity(unit: str, text: str | None = None, **bounds: Any) -> Any:
+    """A field in the unit, described by the text, within the bounds (ge, gt, le)."""
+    return Field(**bounds, description=text, json_schema_extra={"unit": unit})
 
 
 Text = Annotated[str, Field(max_length=LONGEST_TEXT), AfterValidator(_printable)]
@@ -56,21 +56,23 @@ class SlicerAdvice(Record):
         PrintersError: One sentence on an unknown key, NaN or a value out of bounds.
     """
 
-    nozzle_temperature: Celsius
-    first_layer_temperature: Celsius
-    bed_temperature: Celsius
-    print_speed: float = _quantity("mm/s", gt=0, le=500)
-    maximum_volumetric_flow: float = _quantity("mm³/s", gt=0, le=100)
-    perimeter_flow: Flow
-    infill_flow: Flow
-    infill_density: Percent
-    infill_overlap: Percent
-    fan: Percent
-    perimeters: int = Field(ge=1, le=20)
-    retraction: bool
-    supports: bool
-    seam: Text
-    sources: tuple[Text, ...] = Field(min_length=1)
+    nozzle_temperature: Celsius = Field(description="of the nozzle")
+    first_layer_temperature: Celsius = Field(description="of the nozzle, for the first layer")
+    bed_temperature: Celsius = Field(description="of the bed")
+    print_speed: float = _quantity("mm/s", "of the nozzle, within the flow below", gt=0, le=500)
+    maximum_volumetric_flow: float = _quantity("mm³/s", "plastic melted at most", gt=0, le=100)
+    perimeter_flow: Flow = Field(description="of the nominal extrusion")
+    infill_flow: Flow = Field(description="of the nominal extrusion")
+    infill_density: Percent = Field(description="of the infill")
+    infill_overlap: Percent = Field(description="of infill over perimeters")
+    fan: Percent = Field(description="of its speed")
+    perimeters: int = Field(ge=1, le=20, description="loops on each side of a wall")
+    retraction: bool = Field(description="whether the filament is pulled back before travels")
+    supports: bool = Field(description="whether supports are printed")
+    seam: Text = Field(description="where loops begin and end, in words")
+    sources: tuple[Text, ...] = Field(
+        min_length=1, strict=False, description="where the settings were reported"
+    )
 
 
 class PrinterProfile(Record):
@@ -95,19 +97,29 @@ class PrinterProfile(Record):
         PrintersError: One sentence on an unknown key, NaN or a value out of bounds.
     """
 
-    name: Text = Field(min_length=1)
-    description: Text
-    nozzle_diameter: float = _quantity("mm", ge=0.1, le=2)
-    line_width: float = _quantity("mm", ge=0.08, le=3)
-    layer_height: float = _quantity("mm", ge=0.02, le=1.5)
-    minimum_lines: int = Field(ge=1, le=20)
-    minimum_solid_layers: int = Field(ge=1, le=200)
-    build_volume: tuple[Side, Side, Side] = _quantity("mm")
-    minimum_gap: float = _quantity("mm", ge=0.05, le=10)
-    maximum_bridge: float = _quantity("mm", ge=0.5, le=200)
-    maximum_overhang_angle: float = _quantity("degrees", ge=10, le=90)
-    minimum_bed_contact: float = Field(gt=0, le=1)
-    slicer: SlicerAdvice
+    name: Text = Field(min_length=1, description="as it is loaded by")
+    description: Text = Field(description="one line")
+    nozzle_diameter: float = _quantity("mm", "of the nozzle", ge=0.1, le=2)
+    line_width: float = _quantity("mm", "of one line; 0.75 to 2 nozzle diameters", ge=0.08, le=3)
+    layer_height: float = _quantity("mm", "at most 0.8 nozzle diameters", ge=0.02, le=1.5)
+    minimum_lines: int = Field(
+        ge=1, le=20, description="fewest lines side by side that seal: leak-test a box first"
+    )
+    minimum_solid_layers: int = Field(
+        ge=1, le=200, description="fewest layers on top of each other that seal"
+    )
+    build_volume: tuple[Side, Side, Side] = _quantity(
+        "mm", "largest part in x, y and z, each from 20 to 2000", strict=False
+    )
+    minimum_gap: float = _quantity("mm", "narrowest air gap that stays open", ge=0.05, le=10)
+    maximum_bridge: float = _quantity("mm", "widest roof over air", ge=0.5, le=200)
+    maximum_overhang_angle: float = _quantity(
+        "degrees", "steepest free-hanging face, from the vertical", ge=10, le=90
+    )
+    minimum_bed_contact: float = Field(
+        gt=0, le=1, description="part of the footprint's rectangle that must lie on the bed"
+    )
+    slicer: SlicerAdvice = Field(description="settings that go with it")
 
     @property
     def minimum_wall(self) -> float:
@@ -123,6 +135,13 @@ class PrinterProfile(Record):
     def thickest_wall_of_lines(self) -> float:
         """Thickest wall, mm, of perimeters alone; a thicker one has infill that fits any rest."""
         return 2 * self.slicer.perimeters * self.line_width
+
+    def counts_lines(self, thickness: Any) -> Any:
+        """Whether a standing wall of the `thickness`, mm, must be a whole number of lines.
+
+        One rule for declared and for measured walls; numbers and arrays give what they are.
+        """
+        return thickness <= self.thickest_wall_of_lines + 1e-6
 
     @property
     def volumetric_flow(self) -> float:

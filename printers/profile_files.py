@@ -15,6 +15,7 @@ from typing import Any
 
 from printers.errors import PrintersError, quoted, shortened
 from printers.profile import PrinterProfile
+from printers.toml_errors import toml_error
 
 ENTRY_POINT_GROUP = "bellows_design.printers"
 
@@ -105,7 +106,7 @@ def _read(source: Traversable, shown: str) -> PrinterProfile:
     except FileNotFoundError:
         raise PrintersError(f"there is no printer profile file {name}") from None
     except (OSError, ValueError, RecursionError) as error:
-        reason = getattr(error, "strerror", None) or shortened(str(error))
+        reason = getattr(error, "strerror", None) or shortened(str(error)).rstrip(".")
         raise PrintersError(f"printer profile {name} cannot be read: {reason}") from None
     try:
         return PrinterProfile(**table)
@@ -127,4 +128,7 @@ def _text(source: Traversable) -> str:
 def _parsed(text: str) -> dict[str, Any]:
     if any(line.count(".") > MOST_DOTS for line in text.split("\n")):
         raise ValueError(f"it has a line with more than {MOST_DOTS} dots")
-    return tomllib.loads(text)
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise ValueError(toml_error(error, text)) from None

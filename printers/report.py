@@ -21,6 +21,9 @@ class RuleResult:
         unit: Empty where there is none.
         where: The wall, gap or place (mm) the rule was applied to.
         message: One sentence for people.
+        uncertainty: How far `measured` may lie from the truth, in `unit`: what the facets of the
+            mesh may hide, and what the measurement itself may miss. 0 where it is exact, None
+            where `measured` is a declared number or no number.
     """
 
     rule: str
@@ -30,6 +33,7 @@ class RuleResult:
     unit: str
     where: str
     message: str
+    uncertainty: float | None = None
 
 
 @dataclass(frozen=True)

@@ -8,16 +8,17 @@ from typing import Any
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from printers.errors import PrintersError, quoted
+from printers.toml_errors import value_hint
 
 
 class Record(BaseModel):
-    """Frozen, strict in its keys, refusing NaN.
+    """Frozen, strict in its keys and types, refusing NaN: no text or true for a number.
 
     A field states its unit as `json_schema_extra={"unit": "mm"}`; it appears in the sentences.
     Raises PrintersError with one sentence, on the first problem.
     """
 
-    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+    model_config = ConfigDict(frozen=True, extra="forbid", strict=True, allow_inf_nan=False)
 
     def __init__(self, /, **data: Any) -> None:  # "self" may be a key of the file
         try:
@@ -36,8 +37,37 @@ def _sentence(problem: Mapping[str, Any], record: type[BaseModel]) -> str:
     if problem["type"] == "value_error":  # a sentence of our own, complete in itself
         return f"{key}: {text}" if key else text
     given = problem["input"]
-    shown = f"{given:g}" if isinstance(given, float) else quoted(given)
-    return f"{key} is {shown}{_unit(problem, record)}; {text[0].lower()}{text[1:]}"
+    expected = _KINDS.get(problem["type"], f"{text[0].lower()}{text[1:]}")
+    unit = _unit(problem, record)
+    if isinstance(given, int | float) and not isinstance(given, bool):
+        return f"{key} is {_shown(given)}{unit}; {expected}"
+    within = f", in{unit}" if unit else ""
+    return f"{key} is {_shown(given)}; {expected}{within}{_hint(given, problem, unit.strip())}"
+
+
+_KINDS = {
+    "int_type": "it must be a whole number",
+    "int_from_float": "it must be a whole number",
+    "float_type": "it must be a number",
+    "bool_type": "it must be true or false",
+    "string_type": "it must be text",
+    "tuple_type": "it must be a list",
+}
+
+
+def _shown(given: Any) -> str:
+    """A value as a file would have it."""
+    if given is None or isinstance(given, bool):
+        return str(given).lower()
+    return f"{given:g}" if isinstance(given, float) else quoted(given)
+
+
+def _hint(given: Any, problem: Mapping[str, Any], unit: str) -> str:
+    """How a number that was given as text is written."""
+    if not isinstance(given, str) or problem["type"] not in ("int_type", "float_type"):
+        return ""
+    hint = value_hint(given, unit) or f"write {given.strip()} without quotes"
+    return f"; {hint}" if any(sign.isdigit() for sign in given) else ""
 
 
 def _unit(problem: Mapping[str, Any], record: type[BaseModel]) -> str:

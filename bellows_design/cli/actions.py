@@ -11,9 +11,12 @@ from typing import TYPE_CHECKING
 
 from bellows_design.cli.answer import DONE, NOT_SOLVED, REFUSED, Answer
 from bellows_design.cli.output_files import require_file, require_folder, require_plot
+from bellows_design.errors import DesignError
+from bellows_design.validation.quoting import quoted
 
 if TYPE_CHECKING:
     from bellows_design.cli.options import BudgetOptions, DesignOptions
+    from bellows_design.cli.templates import Kind
 
 
 def list_designs() -> Answer:
@@ -22,6 +25,20 @@ def list_designs() -> Answer:
 
     designs = {name: load_design(name).description for name in shipped_designs()}
     return Answer({"designs": designs}, [f"{name:22} {text}" for name, text in designs.items()])
+
+
+def init(kind: Kind, file: Path, force: bool) -> Answer:
+    """Write a commented file to start from; replace another only if ``force`` says so."""
+    from bellows_design.cli.templates import name_from, template
+    from bellows_design.files.atomic import replacing
+
+    require_file(file, ".toml")
+    if file.exists() and not force:
+        raise DesignError(f"{quoted(str(file))} is there already; --force replaces it.")
+    text = template(kind, name_from(file.stem))
+    with replacing(file) as temporary:
+        temporary.write_text(text, "utf-8")
+    return Answer({"kind": kind.value, "file": str(file)}, [f"{file}: a {kind.value}"])
 
 
 def design(options: DesignOptions, output: Path) -> Answer:
@@ -49,20 +66,19 @@ def design(options: DesignOptions, output: Path) -> Answer:
     return Answer(content, [f"{output}: {triangles} triangles, {volume / 1000:.2f} cm³"])
 
 
-def check(options: DesignOptions, printer: str | None) -> Answer:
-    """Check the part on the design's printer, or on another by name or path."""
+def check(options: DesignOptions) -> Answer:
+    """Check the part on its printer."""
     from bellows_design import pipeline
     from bellows_design.progress import on_stderr
     from bellows_design.reports.check import check_table
-    from printers import load_profile
 
     chosen = options.load()
-    load_profile(printer or chosen.printer)
+    chosen.profile()
     with on_stderr() as progress:
         progress.stage("geometry")
         part = pipeline.build_part(chosen)
         progress.stage("check")
-        report = pipeline.check(chosen, part, printer)
+        report = pipeline.check(chosen, part)
     status = DONE if report.verdict == "pass" else REFUSED
     return Answer(pipeline.check_dict(chosen, report), check_table(chosen, report), status)
 
@@ -99,10 +115,9 @@ def run(options: DesignOptions, output: Path, limits: BudgetOptions) -> Answer:
     from bellows_design import pipeline
     from bellows_design.progress import on_stderr
     from bellows_design.reports.outcome import outcome_table
-    from printers import load_profile
 
     chosen = options.load(rename=True)
-    load_profile(chosen.printer)
+    chosen.profile()
     budget = limits.budget()
     with on_stderr() as progress:
         outcome = pipeline.run(chosen, output, progress, budget)

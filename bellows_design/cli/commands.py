@@ -45,6 +45,7 @@ from bellows_design.cli.options import (
     Vtu,
     YieldStrength,
 )
+from bellows_design.cli.templates import Kind
 from bellows_design.materials.laws import BEST
 
 app = typer.Typer(
@@ -78,6 +79,19 @@ def list_designs(as_json: AsJson = False) -> None:
 
 
 @app.command()
+def init(
+    kind: Annotated[Kind, typer.Argument(metavar="KIND", help="design, printer or material.")],
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="File to write: .toml.")],
+    force: Annotated[
+        bool, typer.Option("--force", help="Replace the file if it is there.")
+    ] = False,
+    as_json: AsJson = False,
+) -> None:
+    """Write a commented design, printer or material to start from."""
+    answer(lambda: actions.init(kind, file, force), as_json)
+
+
+@app.command()
 def design(
     name: DesignName,
     output: Annotated[
@@ -99,8 +113,8 @@ def check(
     as_json: AsJson = False,
 ) -> None:
     """Check the part against the rules of a printer."""
-    options = DesignOptions(name, tuple(settings or ()))
-    answer(lambda: actions.check(options, printer), as_json)
+    options = DesignOptions(name, tuple(settings or ()), printer)
+    answer(lambda: actions.check(options), as_json)
 
 
 @app.command()
@@ -128,6 +142,7 @@ def evaluate(
 def run(
     name: DesignName,
     output: Annotated[Path, typer.Option(help="Folder of the approved models.")] = Path("exports"),
+    printer: Printer = None,
     settings: Settings = None,
     memory: Memory = None,
     mesh_seconds: MeshSeconds = None,
@@ -135,7 +150,7 @@ def run(
     as_json: AsJson = False,
 ) -> None:
     """Design, check, evaluate, decide, and export what is approved."""
-    options = DesignOptions(name, tuple(settings or ()))
+    options = DesignOptions(name, tuple(settings or ()), printer)
     limits = BudgetOptions(memory, mesh_seconds, seconds)
     answer(lambda: actions.run(options, output, limits), as_json)
 

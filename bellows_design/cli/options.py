@@ -153,10 +153,11 @@ GaugeLength = Annotated[
 
 @dataclass(frozen=True)
 class DesignOptions:
-    """A design as it is named, and the changes to it, each ``key=value``."""
+    """A design as it is named, the changes to it, each ``key=value``, and another printer."""
 
     name: str
     settings: tuple[str, ...] = ()
+    printer: str | None = None
 
     def load(self, pressure: float | None = None, rename: bool = False) -> Design:
         """The design as named and changed. Raises ``DesignError``.
@@ -169,7 +170,8 @@ class DesignOptions:
 
         original = load_design(self.name)
         load = [] if pressure is None else [f"load.pressure={pressure!r}"]
-        changed = with_overrides(original, [*self.settings, *load])
+        printer = [] if self.printer is None else [f"printer={self.printer}"]
+        changed = with_overrides(original, [*self.settings, *load, *printer])
         return renamed_if_changed(changed, original) if rename else changed
 
 

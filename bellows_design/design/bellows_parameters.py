@@ -50,7 +50,9 @@ class BellowsParameters(Parameters):
     outer_fillet: Millimetres = length_field(0, 25, "radius on the outer edges of a bubble")
     length: Millimetres = length_field(10, 1000, "total length of the tendon")
     offset: Millimetres = length_field(0, 200, "length of the root before the first bubble")
-    number_of_bubbles: int | None = Field(default=None, ge=1, le=100)
+    number_of_bubbles: int | None = Field(
+        default=None, ge=1, le=100, description="without it as many as fit into the length"
+    )
 
     @property
     def bubble_length(self) -> float:

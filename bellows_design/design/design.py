@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any, Self
 
 from pydantic import Field, ValidationError, field_validator, model_validator
@@ -19,14 +20,27 @@ from bellows_design.design.indent import Indent
 from bellows_design.design.port import Port
 from bellows_design.errors import DesignError
 from bellows_design.files.toml_files import toml_table
-from bellows_design.materials.library import load_material, material_names
+from bellows_design.materials.library import load_material, material_at, material_names
 from bellows_design.materials.material import Material
 from bellows_design.validation.parameters import Parameters, require
 from bellows_design.validation.quoting import quoted
 from bellows_design.validation.sentences import sentences
+from printers import PrinterProfile, PrintersError, load_profile
 
 _SLUG = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_-]{0,63}")
 _WINDOWS_DEVICE = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)", re.IGNORECASE)
+
+
+def is_toml(name_or_path: str) -> bool:
+    """Whether a material or printer is meant as a file, not by its name."""
+    return name_or_path.lower().endswith(".toml")
+
+
+def _profile_of(table: Mapping[str, Any]) -> PrinterProfile:
+    try:
+        return PrinterProfile(**table)
+    except PrintersError as error:
+        raise ValueError(f"printer: {error}") from None
 
 
 class Design(Parameters):
@@ -38,9 +52,10 @@ class Design(Parameters):
         bellows: The twelve numbers, mm.
         indent: Groove under every chamber, mm; None without one.
         port: Socket for the tube, mm.
-        material: Constants and strength, MPa; also given by the name of one of the library.
+        material: Constants and strength, MPa; also given by the name of one of the library, or
+            as a TOML file.
         load: Design pressure, MPa.
-        printer: Name of a printer profile.
+        printer: Name of a printer profile, or a profile; also given as a TOML file.
         limits: Stress in MPa and room in mm that the design must keep.
 
     Raises:
@@ -49,13 +64,18 @@ class Design(Parameters):
     """
 
     name: str = Field(description="letters, digits, _ and -, at most 64; names files and folders")
-    description: str = Field(default="", max_length=2000)
+    description: str = Field(default="", max_length=2000, description="one line of text")
     bellows: BellowsParameters
     indent: Indent | None = None
     port: Port = Field(default_factory=Port)
-    material: Material = Field(default_factory=lambda: load_material("ninjaflex"))
+    material: Material = Field(
+        default_factory=lambda: load_material("ninjaflex"),
+        description="name of a material of the library, a TOML file, or a table",
+    )
     load: Load = Field(default_factory=Load)
-    printer: str = Field(default="prusa_i3", description="name of a printer profile")
+    printer: str | PrinterProfile = Field(
+        default="prusa_i3", description="name of a printer profile, a TOML file, or a table"
+    )
     limits: Limits = Field(default_factory=Limits)
 
     def __init__(self, /, **data: Any) -> None:  # "self" may be a key of the file
@@ -94,6 +114,10 @@ class Design(Parameters):
         given = self.limits.max_von_mises
         return self.material.yield_strength if given is None else given
 
+    def profile(self) -> PrinterProfile:
+        """The printer's profile. Raises ``PrintersError`` if there is none of that name."""
+        return load_profile(self.printer) if isinstance(self.printer, str) else self.printer
+
     @property
     def digest(self) -> str:
         """SHA-256 of what is built and decided, as 64 hexadecimal digits.
@@ -121,20 +145,26 @@ class Design(Parameters):
         )
         return description
 
-    @field_validator("printer")
+    @field_validator("printer", mode="before")
     @classmethod
-    def _names_a_profile(cls, printer: str) -> str:
+    def _names_a_profile(cls, printer: Any) -> str | PrinterProfile:
+        if isinstance(printer, PrinterProfile):
+            return printer
+        if isinstance(printer, Mapping):
+            return _profile_of(printer)
         require(
-            bool(_SLUG.fullmatch(printer)),
-            f"printer is {quoted(printer)} but must be the name of a printer profile: "
-            "1 to 64 letters, digits, _ or -",
+            isinstance(printer, str) and (is_toml(printer) or bool(_SLUG.fullmatch(printer))),
+            f"printer is {quoted(printer)} but must be the name of a printer profile (1 to 64 "
+            "letters, digits, _ or -), a file that ends in .toml, or a table",
         )
-        return printer
+        return load_profile(Path(printer)) if is_toml(printer) else printer
 
     @field_validator("material", mode="before")
     @classmethod
     def _material_of_library(cls, value: Any) -> Any:
-        return load_material(value) if isinstance(value, str) else value
+        if not isinstance(value, str):
+            return value
+        return material_at(Path(value)) if is_toml(value) else load_material(value)
 
     @model_validator(mode="after")
     def _parts_fit(self) -> Self:

@@ -13,7 +13,16 @@ from typing import Any
 
 from pydantic import BaseModel
 
-LABELS = {"name", "description", "material.name", "material.source", "material.valid_strain"}
+LABELS = {
+    "name",
+    "description",
+    "material.name",
+    "material.source",
+    "material.valid_strain",
+    "printer.name",
+    "printer.description",
+    "printer.slicer.sources",
+}
 """Fields that name a design without changing what is built or decided."""
 
 FIRST_FIELDS = {

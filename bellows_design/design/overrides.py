@@ -16,8 +16,10 @@ from bellows_design.design.bellows_parameters import BellowsParameters
 from bellows_design.design.design import Design
 from bellows_design.errors import DesignError
 from bellows_design.files.toml_files import parse_toml
+from bellows_design.materials.material import Material
 from bellows_design.validation.quoting import did_you_mean, quoted, quoted_reason
-from bellows_design.validation.sentences import nested_model
+from bellows_design.validation.sentences import nested_model, unit_at
+from printers import PrinterProfile
 
 _WORD = re.compile(r"[A-Za-z_][A-Za-z0-9_-]*")
 _TOML_WORDS = ("true", "false", "inf", "nan")
@@ -62,7 +64,7 @@ def _dotted(model: type[BaseModel], prefix: str = "") -> Iterator[str]:
         inner = nested_model(field)
         if inner is not BellowsParameters:
             yield prefix + name
-        if inner is not None and inner is not BellowsParameters:
+        if inner not in (None, BellowsParameters, PrinterProfile):
             yield from _dotted(inner, f"{prefix}{name}.")
 
 
@@ -73,12 +75,14 @@ def _read(assignment: str) -> tuple[list[str], Any]:
         raise DesignError(f"{quoted(assignment)} must have the form key=value.")
     plain = key.removeprefix("bellows.")
     if plain in BellowsParameters.model_fields:
-        return ["bellows", plain], _value(key, text.strip())
+        path = ["bellows", plain]
+        return path, _value(key, text.strip(), unit_at(Design, path))
     if key not in known_keys():
         raise DesignError(f"unknown key {quoted(key)}{did_you_mean(key, known_keys())}")
-    if _holds_text(key) and not text.strip().startswith(('"', "'")):
+    if _holds_text(key) and not text.strip().startswith(('"', "'", "{")):
         return key.split("."), text.strip()
-    return key.split("."), _value(key, text.strip())
+    path = key.split(".")
+    return path, _value(key, text.strip(), unit_at(Design, path))
 
 
 def _holds_text(key: str) -> bool:
@@ -86,10 +90,12 @@ def _holds_text(key: str) -> bool:
     *parents, last = key.split(".")
     for name in parents:
         model = nested_model(model.model_fields[name]) or model
-    return model.model_fields[last].annotation is str
+    field = model.model_fields[last]
+    # Materials and printers are known by their names or files.
+    return field.annotation is str or nested_model(field) in (Material, PrinterProfile)
 
 
-def _value(key: str, text: str) -> Any:
+def _value(key: str, text: str, unit: str | None) -> Any:
     if text.lower() == "none":
         return None
     if _WORD.fullmatch(text) and text not in _TOML_WORDS:
@@ -97,9 +103,10 @@ def _value(key: str, text: str) -> Any:
     try:
         table = parse_toml(f"value = {text}")
     except ValueError as error:
-        raise DesignError(
-            f"{key} cannot be set to {quoted(text)}: {quoted_reason(error)}."
-        ) from None
+        from printers.toml_errors import value_hint  # not at the start: it comes with NumPy
+
+        reason = value_hint(text, unit or "") or quoted_reason(error)
+        raise DesignError(f"{key} cannot be set to {quoted(text)}: {reason}.") from None
     if list(table) != ["value"]:  # a line break would bring in more keys
         raise DesignError(f"{key} cannot be set to {quoted(text)}: it is not one value.")
     return table["value"]

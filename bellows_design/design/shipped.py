@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
-from bellows_design.design.design import Design
+from bellows_design.design.design import Design, is_toml
 from bellows_design.files.toml_files import TomlLibrary
 
 LIBRARY = TomlLibrary("design", "bellows_design.design", folder="designs")
@@ -20,10 +21,22 @@ def load_design(name_or_path: str | Path) -> Design:
 
     Args:
         name_or_path: A name that ``shipped_designs`` gives, or a file. Lengths in it are in mm,
-            pressures and stresses in MPa.
+            pressures and stresses in MPa. Files of a material or printer that it names are
+            looked for from its folder.
 
     Raises:
         DesignError: There is neither, or the file describes no design; one sentence for each
             problem.
     """
-    return Design.of(LIBRARY.named_or_at(name_or_path))
+    table, path = LIBRARY.named_or_at(name_or_path), LIBRARY.path_of(name_or_path)
+    return Design.of(table if path is None else _with_files_from(path.parent, table))
+
+
+def _with_files_from(folder: Path, table: dict[str, Any]) -> dict[str, Any]:
+    """The table with the files that it names as paths from here."""
+    files = {
+        key: str(folder / table[key])
+        for key in ("material", "printer")
+        if isinstance(table.get(key), str) and is_toml(table[key])
+    }
+    return table | files

@@ -19,7 +19,13 @@ from pathlib import Path
 from typing import Any
 
 from bellows_design.errors import DesignError
-from bellows_design.validation.quoting import did_you_mean, quoted, quoted_path, quoted_reason
+from bellows_design.validation.quoting import (
+    did_you_mean,
+    quoted,
+    quoted_path,
+    quoted_reason,
+    shown,
+)
 
 Table = dict[str, Any]
 
@@ -28,6 +34,9 @@ LARGEST_FILE = 1_000_000
 
 MOST_DOTS = 100
 """In a line, outside of quoted text: reading a key takes time as the square of its parts."""
+
+LONGEST_REASON = 250
+"""Characters of what the parser says, its place in the file included."""
 
 _QUOTED_TEXT = re.compile(r"""\"(?:[^"\\]|\\.?)*+\"?|'[^']*+'?""")
 
@@ -63,12 +72,19 @@ class TomlLibrary:
 
     def named_or_at(self, name_or_path: str | Path) -> Table:
         """The file of that name, else the file at that path. Raises ``DesignError``."""
-        path, given = Path(name_or_path), str(name_or_path)
+        path = self.path_of(name_or_path)
+        if path is None:
+            return self.named(str(name_or_path))
+        return read_toml(path, str(path), self.noun)
+
+    def path_of(self, name_or_path: str | Path) -> Path | None:
+        """The path that is meant; None where it is the name of one of these files."""
+        path = Path(name_or_path)
         if isinstance(name_or_path, str):
             is_path = path.suffix == ".toml" or len(path.parts) > 1 or os.path.exists(path)
-            if given in self._by_name() or not is_path:
-                return self.named(given)
-        return read_toml(path, given, self.noun)
+            if name_or_path in self._by_name() or not is_path:
+                return None
+        return path
 
     def _by_name(self) -> dict[str, Traversable]:
         return dict(reversed(list(self._found())))
@@ -90,6 +106,11 @@ def toml_table(text: str, subject: str) -> Table:
     """``text`` as a table; raises ``DesignError`` with a sentence on ``subject``."""
     try:
         return parse_toml(text)
+    except tomllib.TOMLDecodeError as error:
+        from printers.toml_errors import toml_error  # not at the start: it comes with NumPy
+
+        reason = shown(toml_error(error, text), LONGEST_REASON)
+        raise DesignError(f"{subject} is not valid TOML: {reason}.") from None
     except ValueError as error:
         raise DesignError(f"{subject} is not valid TOML: {quoted_reason(error)}.") from None
 

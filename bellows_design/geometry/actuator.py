@@ -9,14 +9,16 @@ from __future__ import annotations
 
 import itertools
 import math
+from contextlib import suppress
 
 import cadquery as cq
 
 from bellows_design.design.bellows_parameters import BellowsParameters
 from bellows_design.design.indent import Indent
-from bellows_design.design.lengths import SMALLEST_FEATURE, snapped_radius
+from bellows_design.design.lengths import FULL_ROUND_SNAP, SMALLEST_FEATURE, snapped_radius
 from bellows_design.design.port import Port
 from bellows_design.geometry.named_solids import (
+    GeometryError,
     NamedSolid,
     box,
     cut,
@@ -35,6 +37,13 @@ OUTSIDE, CAVITY, ROOT, TIP, SYMMETRY, PORT = (
     "port",
 )
 BUBBLE_MIDDLE, GAP_MIDDLE = "bubble_middle", "gap_middle"
+CHANNEL_ENDS = (0.5, 0.25, 0.4, 0.75, 0.1)
+"""Where the channel may end, in its fillets past the middle of the last chamber: the first is used
+unless the CAD kernel fails there."""
+
+LOOSEST = 0.02
+"""mm. A solid whose faces meet less exactly has no mesh that keeps the tolerance of an STL."""
+
 BEYOND = 1.0
 """mm. How far a cutting solid reaches past what it cuts."""
 
@@ -149,8 +158,32 @@ def _bubble(bellows: BellowsParameters) -> cq.Solid:
 
 
 def _cavity(bellows: BellowsParameters, indent: Indent | None) -> NamedSolid:
-    """All the air inside as one solid: the chambers and the channel that joins them."""
-    cavity = fused(_channel(bellows), *_repeated(_chamber(bellows), bellows, CAVITY))
+    """All the air inside as one solid: the chambers and the channel that joins them.
+
+    Where a fillet is a hair short of a full round, the channel's end may touch several faces of
+    the last chamber within a few µm, which the CAD kernel joins badly or not at all. The end may
+    lie elsewhere, so others are tried then.
+    """
+    for end in CHANNEL_ENDS:
+        with suppress(GeometryError):
+            cavity = _cavity_to(bellows, indent, end)
+            if cavity.looseness <= LOOSEST:
+                return cavity
+    raise GeometryError(
+        "the CAD kernel cannot join the chambers and the air channel of this design; change "
+        f"inner_fillet = {bellows.inner_fillet:g} mm to {_smaller(bellows.inner_fillet):g} mm"
+    )
+
+
+def _smaller(fillet: float) -> float:
+    """An admissible fillet 0.1 mm below ``fillet``, or none."""
+    return fillet - 0.1 if fillet - 0.1 >= FULL_ROUND_SNAP else 0.0
+
+
+def _cavity_to(bellows: BellowsParameters, indent: Indent | None, end: float) -> NamedSolid:
+    """The cavity with a channel that ends so many of its fillets past the last chamber's middle."""
+    chambers = _repeated(_chamber(bellows), bellows, CAVITY)
+    cavity = fused(_channel(bellows, end), *chambers)
     if indent is None or indent.side == "outside":
         return cavity
     indent.check_fits(bellows)
@@ -165,15 +198,15 @@ def _chamber(bellows: BellowsParameters) -> cq.Solid:
     return rounded_box(lower, upper, bellows.chamber_fillet)
 
 
-def _channel(bellows: BellowsParameters) -> NamedSolid:
-    """Air channel, from its wall at the root into the last chamber.
+def _channel(bellows: BellowsParameters, end: float) -> NamedSolid:
+    """Air channel, from its wall at the root to ``end`` fillets past the last chamber's middle.
 
     Ending inside the chamber leaves that bubble's end wall whole: the tip is closed. A channel no
     deeper than the chamber's floor ends in mid-air, so its end needs no rounding.
     """
     half, wall = bellows.channel_width / 2, bellows.tendon_thickness
     radius, last = bellows.channel_fillet, bellows.bubble_middles[-1]
-    lower, upper = (wall, -half, wall), (last + radius / 2, half, bellows.tendon_height - wall)
+    lower, upper = (wall, -half, wall), (last + end * radius, half, bellows.tendon_height - wall)
     if wall < bellows.bubble_thickness:
         return named(rounded_box(lower, upper, radius), CAVITY)
     longer = rounded_box(lower, (upper[0] + BEYOND + radius, *upper[1:]), radius)

@@ -44,6 +44,13 @@ class NamedSolid:
         """Area of the faces called ``name``, mm²."""
         return sum(face.Area() for face in self.faces(name))
 
+    @property
+    def looseness(self) -> float:
+        """How far faces miss each other at most where they meet, mm, as the CAD kernel states."""
+        from OCP.BRep import BRep_Tool
+
+        return max(float(BRep_Tool.Tolerance_s(edge.wrapped)) for edge in self.solid.Edges())
+
     def renamed(self, rename: Callable[[cq.Face, str], str]) -> NamedSolid:
         """Same solid, each face called ``rename(face, name)``."""
         pairs = zip(self.solid.Faces(), self.face_names, strict=True)

@@ -9,7 +9,7 @@ from pydantic import ValidationError
 
 from bellows_design.errors import DesignError
 from bellows_design.files.atomic import replacing
-from bellows_design.files.toml_files import TomlLibrary
+from bellows_design.files.toml_files import TomlLibrary, read_toml
 from bellows_design.materials.laws import LAWS
 from bellows_design.materials.material import Material
 from bellows_design.validation.sentences import sentences
@@ -34,6 +34,15 @@ def load_material(name: str) -> Material:
             or its file cannot be read or describes no material.
     """
     return checked_material(LIBRARY.named(name))
+
+
+def material_at(path: Path) -> Material:
+    """The material in the TOML file at ``path``, such as ``bellows fit`` writes.
+
+    Raises:
+        DesignError: There is no such file, or it describes no material.
+    """
+    return checked_material(read_toml(path, str(path), LIBRARY.noun))
 
 
 def material_names() -> tuple[str, ...]:

@@ -34,6 +34,7 @@ from bellows_design.materials.bounds import (
 from bellows_design.materials.laws import LAWS, OWN_CONSTANTS, Law
 from bellows_design.validation.parameters import Parameters, require
 from bellows_design.validation.quoting import quoted
+from bellows_design.validation.sentences import written_right
 from solver.material.laws import law as solver_law
 
 if TYPE_CHECKING:
@@ -80,7 +81,9 @@ class Material(Parameters):
             ``Design`` and ``load_material`` make sentences of it.
     """
 
-    name: str = Field(default="custom", min_length=1, max_length=64)
+    name: str = Field(
+        default="custom", min_length=1, max_length=64, description="at most 64 characters"
+    )
     model: str = Field(default="ogden", description="name of the material's law")
     mu: tuple[float, ...] = Field(
         max_length=6,
@@ -99,9 +102,18 @@ class Material(Parameters):
         description="constants of a law that is no case of Ogden's",
         json_schema_extra={"unit": "MPa"},
     )
-    yield_strength: float = Field(ge=0.01, le=200, json_schema_extra={"unit": "MPa"})
+    yield_strength: float = Field(
+        ge=0.01,
+        le=200,
+        description="highest von Mises stress unless the design limits it",
+        json_schema_extra={"unit": "MPa"},
+    )
     elongation_at_break: float | None = Field(
-        default=None, ge=20, le=3000, json_schema_extra={"unit": "%"}
+        default=None,
+        ge=20,
+        le=3000,
+        description="nominal strain at break in a tensile test",
+        json_schema_extra={"unit": "%"},
     )
     valid_strain: tuple[Strain, Strain] | None = Field(
         default=None, description="lowest and highest principal nominal strain of the tests"
@@ -118,7 +130,7 @@ class Material(Parameters):
         description="difference of its initial shear modulus from the beginning of the tests",
         json_schema_extra={"unit": "%"},
     )
-    source: str = Field(default="", max_length=1000)
+    source: str = Field(default="", max_length=1000, description="where the numbers are from")
 
     @model_validator(mode="before")
     @classmethod
@@ -235,24 +247,50 @@ def _check_terms(material: Material) -> None:
         "of both",
     )
     for index, (modulus, exponent) in enumerate(zip(mu, alpha, strict=True)):
-        require(
-            modulus > 0,
-            f"material.mu[{index}] is {modulus:g} MPa but must be greater than 0 (Hill's "
-            "inequality); constants of the literature's form become μ = μₚ αₚ / 2",
-        )
+        require(modulus > 0, _not_positive(material, index))
         require(
             abs(exponent) <= 50,
             f"material.alpha[{index}] is {exponent:g} but must lie between -50 and 50",
         )
 
 
+def _names_of_mu(material: Material) -> tuple[str, ...]:
+    """c10, c01, … as far as a law has such names for half of its μ; else none."""
+    law = LAWS[material.model]
+    return law.written[0][: len(law.exponents)] if law.written and law.exponents else ()
+
+
+def _not_positive(material: Material, index: int) -> str:
+    """The sentence on a term that breaks Hill's inequality, by the name that the law has for it."""
+    names, modulus = _names_of_mu(material), material.mu[index]
+    if not names:
+        return (
+            f"material.mu[{index}] is {modulus:g} MPa but must be greater than 0 (Hill's "
+            "inequality); constants of the literature's form become μ = μₚ αₚ / 2"
+        )
+    others = f'; without {names[index]}, model = "neo-hooke" takes {names[0]} alone'
+    return (
+        f"material.{names[index]} is {modulus / 2:g} MPa but must be greater than 0 (Hill's "
+        f"inequality){others if index else ''}"
+    )
+
+
 def _check_modulus(material: Material) -> None:
     shear = material.initial_shear_modulus
+    names = _names_of_mu(material) or LAWS[material.model].constants or ("mu",)
     require(
         SOFTEST <= shear <= STIFFEST,
-        f"material.mu sums to an initial shear modulus of {shear:g} MPa but must lie between "
-        f"{SOFTEST:g} and {STIFFEST:g} MPa; are the constants given in MPa?",
+        f"material.{', '.join(names)}: the initial shear modulus is {shear:g} MPa but must lie "
+        f"between {SOFTEST:g} and {STIFFEST:g} MPa; are the constants given in MPa?",
     )
+
+
+def _names_of_softening(material: Material) -> str:
+    """The constants that may be negative, by the names that the law has for them."""
+    law, count = LAWS[material.model], len(material.higher)
+    forms = [form for form in law.written if len(form) == len(law.exponents) + count]
+    higher = forms[0][len(law.exponents) :] if forms and law.exponents else ("higher",)
+    return ", ".join(higher if count else law.constants or ("constants",))
 
 
 def _check_exponents(material: Material) -> None:
@@ -273,10 +311,10 @@ def _check_stability(material: Material) -> None:
     low, high = material.valid_strain or (LOWEST - 1, HIGHEST - 1)
     found = stability(material.law_constants())
     worst = min(found.ranges, key=lambda each: each.highest / each.lowest)
-    name = "higher" if material.higher else "constants"
     require(
         found.covers(max(1 + low, LOWEST), min(1 + high, HIGHEST)),
-        f"material.{name} is {list(material.higher or material.constants)} MPa, with which "
+        f"material.{_names_of_softening(material)}: with "
+        f"{list(material.higher or material.constants)} MPa, "
         f"{worst.mode} tests are stable only at stretches from {worst.lowest:.3g} to "
         f"{worst.highest:.3g}, less than valid_strain says (all stretches, without one)",
     )
@@ -316,8 +354,13 @@ def _law_and_form(name: str, given: Sequence[str]) -> tuple[Law, tuple[str, ...]
 def _constant(key: str, value: Any) -> float:
     number = isinstance(value, int | float) and not isinstance(value, bool)
     require(
-        number and abs(value) <= STIFFEST,
-        f"material.{key} is {quoted(str(value)[:40])} but must lie between {-STIFFEST:g} and "
+        number,
+        f"material.{key} is {quoted(value)} but must be a number, in MPa"
+        f"{written_right(value, 'MPa')}",
+    )
+    require(
+        abs(value) <= STIFFEST,
+        f"material.{key} is {quoted(value)} MPa but must lie between {-STIFFEST:g} and "
         f"{STIFFEST:g} MPa",
     )
     return float(value)

@@ -31,7 +31,9 @@ def check_table(design: Design, report: PrintabilityReport) -> Sequence[Renderab
 
 
 def _row(rule: RuleResult) -> tuple[Text, ...]:
-    measured = f"{_short(rule.measured)} {rule.unit}"
+    measured = _short(rule.measured)
+    if any(sign.isdigit() for sign in measured):  # words have no unit
+        measured = f"{measured} {rule.unit}"
     cells = (rule.rule, measured, _short(rule.required), rule.where)
     return Text(rule.verdict, style=_STYLES[rule.verdict]), *(Text(cell) for cell in cells)
 

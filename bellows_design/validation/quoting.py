@@ -12,11 +12,14 @@ _LONGEST_COMPARED = 200
 
 def quoted(value: object) -> str:
     """``value`` as it may stand in a message: printable, on one line, at most 60 characters."""
-    text = value if isinstance(value, str) else _represented(value)
-    text = text[: _LONGEST_QUOTE + 1]
-    text = "".join(sign if sign.isprintable() else "?" for sign in text)
-    text = text if len(text) <= _LONGEST_QUOTE else text[: _LONGEST_QUOTE - 1] + "…"
+    text = shown(value if isinstance(value, str) else _represented(value), _LONGEST_QUOTE)
     return f"“{text}”" if isinstance(value, str) else text
+
+
+def shown(text: str, longest: int) -> str:
+    """``text`` in printable characters, and no more of them than ``longest``."""
+    text = "".join(sign if sign.isprintable() else "?" for sign in text[: longest + 1])
+    return text if len(text) <= longest else text[: longest - 1] + "…"
 
 
 def quoted_path(path: str | Path) -> str:
@@ -50,6 +53,8 @@ def did_you_mean(unknown: str, known: Iterable[str]) -> str:
 
 
 def _represented(value: object) -> str:
+    if value is None or isinstance(value, bool):  # as they are written in files and options
+        return str(value).lower()
     try:
         return repr(value)
     except (ValueError, RecursionError):  # 4300 digits, 1000 levels

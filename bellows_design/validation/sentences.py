@@ -31,12 +31,13 @@ _NOUNS = {
     "tuple_type": "a list of numbers",
 }
 _OTHER_UNITS = {
-    "mm": ((1e3, "m"), (1e-3, "µm")),
-    "MPa": ((0.1, "bar"), (1e-3, "kPa"), (1e-6, "Pa"), (1e3, "GPa")),
+    "mm": ((1e3, "m"), (1e-3, "µm"), (10.0, "cm"), (25.4, "in")),
+    "MPa": ((0.1, "bar"), (0.00689476, "psi"), (1e-3, "kPa"), (1e-6, "Pa"), (1e3, "GPa")),
 }
 """Unit -> the units a number out of bounds may have been meant in, and their factors."""
 
 _MOST_PROBLEMS = 20
+_MOST_HINTS = 2
 
 
 def sentences(error: ValidationError, model: type[BaseModel]) -> tuple[str, ...]:
@@ -72,6 +73,8 @@ def _sentence(detail: Mapping[str, Any], model: type[BaseModel]) -> str:
         return f"unknown key {quoted(name)}{did_you_mean(name, _keys_beside(model, detail['loc']))}"
     if kind == "missing":
         return f"{name} is missing{_meaning(field, unit)}."
+    if value is None:
+        return f"{name} cannot be none: it must be {_wanted(kind, context)}{_in(unit)}."
     if kind in _BOUNDS:
         key, words = _BOUNDS[kind]
         bound = context[key]
@@ -80,13 +83,44 @@ def _sentence(detail: Mapping[str, Any], model: type[BaseModel]) -> str:
     if kind == "finite_number":
         return f"{name} is {value} but must be a finite number{_in(unit)}."
     if kind.startswith(("float", "int")):
-        whole = "whole number" if kind.startswith("int") else "number"
-        return f"{name} is {quoted(value)} but must be a {whole}{_in(unit)}."
+        wanted = f"{_wanted(kind, context)}{_in(unit)}"
+        return f"{name} is {quoted(value)} but must be {wanted}{written_right(value, unit)}."
     if kind in _NOUNS:
         return f"{name or 'a design'} is {quoted(value)} but must be {_NOUNS[kind]}."
     if kind == "literal_error":
         return f"{name} is {quoted(value)} but must be {context['expected']}."
     return _ended(f"{name} is {quoted(value)}: {_lowered(str(detail['msg']))}")
+
+
+def _wanted(kind: str, context: Mapping[str, Any]) -> str:
+    """What a value must be instead, in words."""
+    if kind == "literal_error":
+        return str(context["expected"])
+    if kind.startswith("int"):
+        return "a whole number"
+    return _NOUNS.get(kind, "a number" if kind.startswith("float") else "given")
+
+
+def unit_at(model: type[BaseModel], location: Sequence[str]) -> str | None:
+    """Unit of the field of ``model`` at ``location``; None without one."""
+    return _unit_of(_field(model, location))
+
+
+def written_right(value: object, unit: str | None) -> str:
+    """``; write 1.2 ...`` for a number in ``unit`` that was given as text; else empty."""
+    if not isinstance(value, str) or not any(sign.isdigit() for sign in value):
+        return ""
+    from printers.toml_errors import value_hint  # not at the start: it comes with NumPy
+
+    hint = value_hint(value, unit or "")
+    return f"; {hint}" if hint else f"; write {value.strip()} without quotes" * _is_number(value)
+
+
+def _is_number(text: str) -> bool:
+    try:
+        return math.isfinite(float(text))
+    except ValueError:
+        return False
 
 
 def _keys_beside(model: type[BaseModel], location: Sequence[int | str]) -> list[str]:
@@ -121,10 +155,12 @@ def _model(model: type[BaseModel], names: Sequence[str]) -> type[BaseModel]:
 def _unit_hint(value: object, field: FieldInfo | None, unit: str | None) -> str:
     if field is None or unit not in _OTHER_UNITS or not isinstance(value, int | float):
         return ""
-    for factor, other in _OTHER_UNITS[unit]:
-        if _within(value * factor, field):
-            return f"; {value:g} {other} would be {value * factor:g} {unit}"
-    return ""
+    meant = [
+        f"{value:g} {other} would be {value * factor:.6g} {unit}"
+        for factor, other in _OTHER_UNITS[unit]
+        if _within(value * factor, field)
+    ]
+    return f"; {', '.join(meant[:_MOST_HINTS])}" if meant else ""
 
 
 def _within(value: float, field: FieldInfo) -> bool:

@@ -42,6 +42,15 @@ class MeasuredPart:
         return np.asarray(low.all(axis=1) & (self.surface.normals[:, 2] < 0))
 
     @cached_property
+    def bed_rim(self) -> float:
+        """Length, mm, of the rim of what lies on the bed."""
+        edges = self.surface.half_edges[np.repeat(self.on_bed, 3)]
+        number = self.surface.edge_number[np.repeat(self.on_bed, 3)]
+        once = np.bincount(number)[number] == 1
+        ends = self.surface.vertices[edges[once]]
+        return float(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).sum())
+
+    @cached_property
     def shells(self) -> Shells:
         """The connected pieces of the surface."""
         return split_shells(self.surface)

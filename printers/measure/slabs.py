@@ -12,7 +12,7 @@ from typing import Literal
 
 import numpy as np
 
-from printers.arrays import Flags, Floats
+from printers.arrays import Flags, Floats, Ints
 from printers.measure.box_tree import first_hits
 from printers.measure.samples import Samples
 from printers.measure.surface import Surface
@@ -32,13 +32,14 @@ class Slabs:
 
     `thickness` (k,) mm along the normal; `middle` (k, 3) mm; `normal` (k, 3) of the starting face;
     `facing` (k,) cosine between the faces, 1 when parallel; `area` in mm² of the starting face
-    behind every entry.
+    behind every entry, and its `triangle` (k,).
     """
 
     thickness: Floats
     middle: Floats
     normal: Floats
     facing: Floats
+    triangle: Ints
     area: float
 
     def chosen(self, which: Flags) -> Slabs:
@@ -48,6 +49,7 @@ class Slabs:
             self.middle[which],
             self.normal[which],
             self.facing[which],
+            self.triangle[which],
             self.area,
         )
 
@@ -78,6 +80,7 @@ def measure_slabs(surface: Surface, samples: Samples, filling: Filling, reach: f
         samples.points + np.where(hit, thickness, 0.0)[:, None] / 2 * direction,
         samples.normals,
         facing,
+        samples.triangle,
         samples.area,
     )
     return found.chosen(hit)

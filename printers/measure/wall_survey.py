@@ -9,13 +9,21 @@ import numpy as np
 
 from printers.arrays import Flags, Floats
 from printers.measure.boundary import Boundary
-from printers.measure.slabs import STEADY_SPREAD, Slabs, flat, measure_slabs, steady
+from printers.measure.curved_walls import curved_walls, on_flat_faces
+from printers.measure.slabs import (
+    STEADY_SPREAD,
+    Slabs,
+    flat,
+    measure_slabs,
+    steady,
+)
 from printers.measure.surface import Surface
 from printers.model import DeclaredWall, WallKind
 from printers.profile import PrinterProfile
 from printers.tolerances import FACET_TOLERANCE, SMALLEST_AREA
 
 LINKED = 0.03  # mm: measured thicknesses closer than this belong together
+OPPOSITE = float(np.cos(np.radians(30.0)))  # plane faces that open up more widely are no wall
 LEVEL = float(np.cos(np.radians(10.0)))  # floors and roofs, whose thickness is counted in layers
 
 
@@ -68,13 +76,33 @@ def survey_walls(
 
 
 def _walls(surface: Surface, slabs: Slabs, profile: PrinterProfile) -> Iterator[MeasuredWall]:
-    parallel = slabs.chosen(slabs.parallel)
-    plane = flat(surface, parallel, profile.line_width)
-    constant = steady(slabs)[slabs.parallel]
-    level = np.abs(parallel.normal[:, 2]) >= LEVEL
-    standing = parallel.vertical & (parallel.thickness <= profile.thickest_wall_of_lines + 1e-6)
-    yield from _groups(parallel, standing & (plane | constant), "lines")
-    yield from _groups(parallel, level & plane, "layers")
+    plane = _plane(surface, slabs, profile.line_width)
+    counted = slabs.vertical & profile.counts_lines(slabs.thickness)
+    on_flat, constant = on_flat_faces(surface)[slabs.triangle], steady(slabs)
+    straight = on_flat & (plane | (constant & slabs.parallel))
+    yield from _groups(slabs, counted & straight, "lines")
+    yield from _curved(slabs, curved_walls(surface, slabs, counted & ~on_flat, straight, constant))
+    level = np.abs(slabs.normal[:, 2]) >= LEVEL
+    yield from _groups(slabs, level & plane & slabs.parallel, "layers")
+
+
+def _plane(surface: Surface, slabs: Slabs, radius: float) -> Flags:
+    """(k,): slabs between plane faces that lie opposite each other, parallel or tapering."""
+    result = slabs.facing >= OPPOSITE
+    result[result] = flat(surface, slabs.chosen(result), radius)
+    return result
+
+
+def _curved(slabs: Slabs, found: Iterator[Flags]) -> Iterator[MeasuredWall]:
+    """Curved walls: those of one thickness together, every one that tapers by itself."""
+    even = np.zeros(len(slabs.thickness), dtype=bool)
+    for members in found:
+        wall = _measured(slabs.chosen(members), "lines")
+        if wall.tapered:
+            yield wall
+        else:
+            even |= members
+    yield from _groups(slabs, even, "lines")
 
 
 def group_by_thickness(thickness: Floats, area: float) -> Iterator[Flags]:
@@ -99,7 +127,8 @@ def _groups(slabs: Slabs, which: Flags, kind: WallKind) -> Iterator[MeasuredWall
 
 def _measured(slabs: Slabs, kind: WallKind) -> MeasuredWall:
     low, median, high = np.quantile(slabs.thickness, [0.01, 0.5, 0.99])
-    typical = np.abs(slabs.thickness - median) <= max(FACET_TOLERANCE, (high - low) / 4)
+    off = np.abs(slabs.thickness - median)
+    typical = off <= max(FACET_TOLERANCE, (high - low) / 4, float(off.min()))
     # A real point of such a wall, nearest to the middle of them all: the mean of several walls
     # would lie in the air between them.
     middles = slabs.middle[typical]

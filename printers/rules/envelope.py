@@ -8,9 +8,10 @@ import numpy as np
 
 from printers.measure.part import MeasuredPart
 from printers.report import RuleResult, pass_or_fail, place
-from printers.tolerances import ROUNDING
+from printers.tolerances import FACET_TOLERANCE, ROUNDING
 
 EXACT = 1e-9
+_EXTENT = 2 * FACET_TOLERANCE  # mm: on either side a round may stand out of its facets
 
 
 def check_build_volume(part: MeasuredPart) -> Iterator[RuleResult]:
@@ -20,7 +21,9 @@ def check_build_volume(part: MeasuredPart) -> Iterator[RuleResult]:
     fits = bool(lying.all() and extent[2] <= room[2] + ROUNDING)
     size, volume = _size(extent), _size(room)
     message = f"the part, {size} mm, {'fits' if fits else 'does not fit'} the printer's {volume} mm"
-    yield RuleResult("build_volume", pass_or_fail(fits), size, volume, "mm", "whole part", message)
+    yield RuleResult(
+        "build_volume", pass_or_fail(fits), size, volume, "mm", "whole part", message, _EXTENT
+    )
 
 
 def check_cross_section(part: MeasuredPart) -> Iterator[RuleResult]:
@@ -37,7 +40,14 @@ def check_cross_section(part: MeasuredPart) -> Iterator[RuleResult]:
     )
     message = "the cross-section keeps its limit" if fits else f"the cross-section exceeds {excess}"
     yield RuleResult(
-        "cross_section", pass_or_fail(fits), _size(extent), _size(limit), "mm", "y × z", message
+        "cross_section",
+        pass_or_fail(fits),
+        _size(extent),
+        _size(limit),
+        "mm",
+        "y × z",
+        message,
+        _EXTENT,
     )
 
 
@@ -56,7 +66,8 @@ def check_bed_contact(part: MeasuredPart) -> Iterator[RuleResult]:
     contact = surface.corners[part.on_bed]
     where = place(contact.mean(axis=(0, 1))) if len(contact) else "nowhere"
     measured, needed = round(area, 1), round(required, 1)
-    yield RuleResult("bed_contact", pass_or_fail(stands), measured, needed, "mm²", where, message)
+    verdict, hidden = pass_or_fail(stands), round(FACET_TOLERANCE * part.bed_rim, 2)
+    yield RuleResult("bed_contact", verdict, measured, needed, "mm²", where, message, hidden)
 
 
 def _size(extent: np.typing.ArrayLike) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
@@ -24,7 +25,8 @@ def check_declared_gaps(part: MeasuredPart) -> Iterator[RuleResult]:
     for gap in part.model.gaps:
         open_ = gap.width >= part.profile.minimum_gap - 1e-9
         message = f"{gap.name} {gap.width:g} mm {_against(open_, part.profile)}"
-        yield _result("gap", open_, gap.width, part.profile.minimum_gap, gap.name, message)
+        result = _result("gap", open_, gap.width, part.profile.minimum_gap, gap.name, message)
+        yield replace(result, uncertainty=None)
 
 
 def check_measured_gaps(part: MeasuredPart) -> Iterator[RuleResult]:
@@ -70,14 +72,16 @@ def _as_declared(gap: DeclaredGap, slabs: Slabs) -> RuleResult:
     message = f"{gap.name} {gap.width:g} mm was measured on {area:.0f} mm²"
     if not found:
         measured = round(float(np.median(widths)), 3) if len(widths) else "none"
-        message = f"{gap.name} {gap.width:g} mm was found nowhere outside (median gap: {measured})"
+        other = f"the median gap is {measured} mm" if len(widths) else "no walls face each other"
+        message = f"{gap.name} {gap.width:g} mm was found nowhere outside, where {other}"
     return _result("gap_as_declared", found, measured, gap.width, gap.name, message)
 
 
 def _result(
     rule: str, good: bool, measured: float | str, required: float, where: str, message: str
 ) -> RuleResult:
-    return RuleResult(rule, pass_or_fail(good), measured, required, "mm", where, message)
+    verdict = pass_or_fail(good)
+    return RuleResult(rule, verdict, measured, required, "mm", where, message, FACET_TOLERANCE)
 
 
 def _inside(scope: str) -> str:

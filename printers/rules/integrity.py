@@ -24,7 +24,8 @@ def check_watertight(part: MeasuredPart) -> Iterator[RuleResult]:
         text = ", ".join(f"{len(edges)} {name}" for name, edges in found.items())
         message = f"the mesh is not the boundary of a solid: it has {text}"
         where = place(_middle_of_edge(part.surface, int(next(iter(found.values()))[0])))
-    yield RuleResult("watertight", pass_or_fail(not found), count, 0, "bad edges", where, message)
+    verdict = pass_or_fail(not found)
+    yield RuleResult("watertight", verdict, count, 0, "bad edges", where, message, 0.0)
 
 
 def check_self_intersection(part: MeasuredPart) -> Iterator[RuleResult]:
@@ -36,7 +37,7 @@ def check_self_intersection(part: MeasuredPart) -> Iterator[RuleResult]:
         where = place(part.surface.corners[pierced.triangle[0]].mean(axis=0))
         message = f"the surface passes through itself in {count} places, first near {where}"
     verdict = pass_or_fail(not count)
-    yield RuleResult("self_intersection", verdict, count, 0, "crossings", where, message)
+    yield RuleResult("self_intersection", verdict, count, 0, "crossings", where, message, 0.0)
 
 
 def check_one_body(part: MeasuredPart) -> Iterator[RuleResult]:
@@ -51,7 +52,7 @@ def check_one_body(part: MeasuredPart) -> Iterator[RuleResult]:
         volumes = ", ".join(f"{volume:.1f}" for volume in sorted(bodies.values())[::-1][:5])
         message = f"the mesh holds {count} separate bodies (mm³: {volumes}); it must be one"
     verdict = pass_or_fail(count == 1)
-    yield RuleResult("one_body", verdict, count, 1, "bodies", "whole mesh", message)
+    yield RuleResult("one_body", verdict, count, 1, "bodies", "whole mesh", message, 0.0)
 
 
 def _bad_edges(surface: Surface) -> dict[str, Ints]:

@@ -83,4 +83,6 @@ def _judge(opening: Opening, diameter: float | None, minimum_gap: float) -> Rule
         f"(facets may take {FACET_TOLERANCE:g} mm on either side)"
     )
     verdict, measured = pass_or_fail(good), round(diameter, 3)
-    return RuleResult("opening_width", verdict, measured, needed, "mm", where, message)
+    return RuleResult(
+        "opening_width", verdict, measured, needed, "mm", where, message, 2 * FACET_TOLERANCE
+    )

@@ -89,7 +89,8 @@ def _judge(rule: str, thinnest: Thinnest | None, has_cavity: bool, made_of: str)
         f"(facets may take {FACET_TOLERANCE:g} mm){scope}"
     )
     measured, required = round(thinnest.thickness, 3), round(thinnest.required, 3)
-    return RuleResult(rule, pass_or_fail(enough), measured, required, "mm", where, message)
+    verdict = pass_or_fail(enough)
+    return RuleResult(rule, verdict, measured, required, "mm", where, message, FACET_TOLERANCE)
 
 
 def _cavity_points(boundary: Boundary) -> Floats:

@@ -7,6 +7,7 @@ declared wall is judged by its number, and the mesh is measured to see that it s
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from printers.measure.part import MeasuredPart
 from printers.measure.wall_survey import MeasuredWall, WallSurvey
@@ -33,16 +34,21 @@ def check_measured_walls(part: MeasuredPart) -> Iterator[RuleResult]:
 def check_walls_as_declared(part: MeasuredPart) -> Iterator[RuleResult]:
     """A declared wall must be found on the mesh, between parallel faces, as thick as declared."""
     for wall in part.model.walls:
-        yield _as_declared(wall, part.walls)
+        if wall.around is None:
+            yield _as_declared(wall, part.walls)
 
 
 def _multiple(wall: DeclaredWall, profile: PrinterProfile) -> RuleResult:
     unit = _unit(wall.kind, profile)
     count = wall.thickness / unit
-    whole = abs(count - round(count)) <= WHOLE and round(count) >= 1
+    filled = wall.kind == "lines" and not profile.counts_lines(wall.thickness)
+    whole = filled or (abs(count - round(count)) <= WHOLE and round(count) >= 1)
+    most = (
+        f", more than the {2 * profile.slicer.perimeters} of all perimeters: infill fits the rest"
+    )
     message = (
         f"{wall.name} {wall.thickness:g} mm is {count:.4g} {wall.kind} of {unit:g} mm"
-        f"{'' if whole else ', not a whole number'}"
+        f"{most if filled else '' if whole else ', not a whole number'}"
     )
     return _whole_number("wall_multiple", whole, round(count, 4), wall.kind, wall.name, message)
 
@@ -55,7 +61,10 @@ def _multiple_measured(wall: MeasuredWall, profile: PrinterProfile) -> RuleResul
     off = abs(wall.thickness - max(round(count), 1) * unit) > tolerance
     good, where = not (off or wall.tapered), place(wall.place)
     message = _describe(wall, count, off, tolerance)
-    return _whole_number("wall_multiple_measured", good, round(count, 2), wall.kind, where, message)
+    result = _whole_number(
+        "wall_multiple_measured", good, round(count, 2), wall.kind, where, message
+    )
+    return replace(result, uncertainty=round(tolerance / unit, 3))
 
 
 def _whole_number(
@@ -80,6 +89,7 @@ def _as_declared(wall: DeclaredWall, survey: WallSurvey) -> RuleResult:
         "mm",
         wall.name,
         f"{wall.name} {wall.thickness:g} mm {message}",
+        FACET_TOLERANCE,
     )
 
 

@@ -106,7 +106,7 @@ def solids() -> SimpleNamespace:
     return SimpleNamespace(
         block=block, bore=bore, rounded_bar=rounded_bar, hollow_box=hollow_box, port_of=port_of,
         arrays=arrays, model=model, part=part, bellows=bellows, Manifold=Manifold, Mesh64=Mesh64,
-        CrossSection=CrossSection,
+        CrossSection=CrossSection, JoinType=JoinType,
     )  # fmt: skip
 
 

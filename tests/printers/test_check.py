@@ -82,7 +82,7 @@ def test_the_report_is_plain_json(solids: SimpleNamespace, prusa: PrinterProfile
     assert data["printer"] == "prusa_i3"
     assert data["verdict"] == report.verdict
     assert len(data["rules"]) == len(report.rules)
-    keys = {"rule", "verdict", "measured", "required", "unit", "where", "message"}
+    keys = {"rule", "verdict", "measured", "required", "unit", "where", "message", "uncertainty"}
     assert all(set(rule) == keys for rule in data["rules"])
 
 

@@ -159,7 +159,7 @@ def test_every_number_of_a_table_states_its_unit(table: type[Parameters]) -> Non
     [
         ("port.wall=99", "port.wall is 99 mm but must be at most 10 mm."),
         ("port.wall=1e3", "port.wall is 1000 mm but must be at most 10 mm; 1000 µm would be 1 mm."),
-        ("port.depth=true", "port.depth is True but must be a number, in mm."),
+        ("port.depth=true", "port.depth is true but must be a number, in mm."),
         ("indent.fillet=nan", "indent.fillet is nan but must be a finite number, in mm."),
     ],
 )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import sys
 from collections.abc import Callable
 from importlib.metadata import EntryPoint
@@ -102,6 +103,15 @@ def test_a_file_made_to_harm_is_refused_soon(content: bytes, kind: Kind) -> None
     path, good, read = kind
     path.write_bytes(content.replace(BASE, good))
     assert refused_in_sentences(read)
+
+
+def test_a_decimal_comma_is_answered_with_line_column_and_the_decimal_point() -> None:
+    path = Path(__file__).parents[1] / "data/decimal_comma.toml"
+    with pytest.raises(DesignError) as caught:
+        load_design(path)
+    told = str(caught.value)
+    assert told.endswith("write 1.2, not 1,2.") and "…" not in told
+    assert re.search(r"at line 6, column \d+: expected newline or end of document", told)
 
 
 def test_a_byte_order_mark_is_no_part_of_a_file(kind: Kind) -> None:

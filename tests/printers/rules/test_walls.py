@@ -117,6 +117,33 @@ def test_a_wedge_is_no_wall_of_whole_lines(solids: SimpleNamespace, prusa: Print
     assert not [r for r in straight.failures if r.rule == "wall_multiple_measured"]
 
 
+def test_every_wedge_up_to_thirty_degrees_tapers(
+    solids: SimpleNamespace, prusa: PrinterProfile
+) -> None:
+    fails = []
+    for angle in (0.0, 0.1, 0.5, 2.0, 9.0, 20.0, 28.0):
+        rise = 12.0 * np.tan(np.radians(angle))
+        report = check_printability(solids.model(wedge(solids, 1.2, 1.2 + rise)), prusa)
+        fails.append(any(r.rule == "wall_multiple_measured" for r in report.failures))
+    assert fails == [False, False, True, True, True, True, True]
+
+
+def test_declared_and_measured_walls_agree_along_a_sweep_of_thickness(
+    solids: SimpleNamespace, prusa: PrinterProfile
+) -> None:
+    """Whole numbers of lines pass up to six, all perimeters; infill fits any wall beyond."""
+    walls = (1.2, 1.3, 1.6, 1.9, 2.35, 2.4, 2.42, 2.5, 3.0)
+    for wall in walls:
+        model = solids.model(solids.hollow_box(wall=wall), walls=(DeclaredWall("side", wall),))
+        report = check_printability(model, prusa)
+        declared, measured = (
+            "fail" in {r.verdict for r in report.rules if r.rule == rule and r.unit == "lines"}
+            for rule in ("wall_multiple", "wall_multiple_measured")
+        )
+        whole = wall > 2.4 or round(wall / 0.4, 3).is_integer()
+        assert declared == measured == (not whole), wall
+
+
 @pytest.mark.parametrize(("wall", "verdict"), [(1.2, "pass"), (1.4, "fail")])
 def test_a_curved_wall_of_constant_thickness_is_measured(
     solids: SimpleNamespace, prusa: PrinterProfile, wall: float, verdict: str

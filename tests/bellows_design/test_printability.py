@@ -1,0 +1,72 @@
+"""Verdicts on designs do not hang on the tessellation, and the port's wall is one of the walls."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import pytest
+
+from bellows_design.design import Design, load_design, with_overrides
+from bellows_design.geometry.actuator import printed_part
+from bellows_design.geometry.tessellation import tessellate
+from bellows_design.printability import printed_model
+from printers import PrintabilityReport, check_printability, load_profile
+
+SHORT = ("offset=14", "length=18.4", "number_of_bubbles=1", "indent=none")
+
+
+@cache
+def report(tolerance: float, *changes: str) -> PrintabilityReport:
+    design = with_overrides(load_design("finger"), [*SHORT, *changes])
+    solid = printed_part(design.bellows, design.indent, design.port).solid
+    model = printed_model(design, tessellate(solid, tolerance))
+    return check_printability(model, load_profile("prusa_i3"))
+
+
+@pytest.mark.parametrize(
+    ("tolerance", "fillet"),
+    [*((0.02, fillet) for fillet in (1.6, 1.75, 1.9, 2.05, 2.2)), (0.01, 1.75), (0.01, 2.05)],
+)
+def test_no_outer_fillet_makes_the_walls_of_the_finger_taper(
+    tolerance: float, fillet: float
+) -> None:
+    found = report(tolerance, f"outer_fillet={fillet}")
+    assert found.verdict == "pass", [rule.message for rule in found.failures]
+
+
+@pytest.mark.parametrize(
+    ("changes", "failing"),
+    [
+        (("bubble_thickness=2.35",), {"wall_multiple", "wall_multiple_measured"}),
+        (("bubble_thickness=2.5",), set()),
+        (("bubble_thickness=3",), set()),
+        (("port.wall=2", "port.depth=2"), set()),
+        (("port.wall=1.2",), set()),
+        (("port.wall=0.8", "port.depth=2"), {"minimum_lines"}),
+    ],
+)
+def test_walls_are_judged_as_declared_and_as_measured(
+    changes: tuple[str, ...], failing: set[str]
+) -> None:
+    assert {rule.rule for rule in report(0.02, *changes).failures} == failing
+
+
+def test_a_boss_of_another_thickness_than_declared_is_found() -> None:
+    """The walls of the finger are 1.2 and 1.6 mm; a boss of 2 mm is declared as either."""
+    built = with_overrides(load_design("finger"), [*SHORT, "port.wall=2"])
+    solid = printed_part(built.bellows, built.indent, built.port).solid
+    mesh = tessellate(solid)
+    for wall in (1.2, 1.6):
+        (rule,) = port_rules(built, mesh, wall)
+        assert (rule.verdict, rule.measured) == ("fail", pytest.approx(2, abs=0.02))
+
+
+def port_rules(built: Design, mesh: object, wall: float) -> list:  # type: ignore[type-arg]
+    from dataclasses import replace
+
+    model = printed_model(built, mesh)  # type: ignore[arg-type]
+    walls = tuple(
+        replace(each, thickness=wall) if each.name == "port.wall" else each for each in model.walls
+    )
+    found = check_printability(replace(model, walls=walls), load_profile("prusa_i3"))
+    return [r for r in found.rules if (r.rule, r.where) == ("wall_as_declared", "port.wall")]
