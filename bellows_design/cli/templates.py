@@ -25,6 +25,8 @@ EXAMPLES: Mapping[str, Any] = {
     "max_von_mises": 4.0,
     "elongation_at_break": 600.0,
     "valid_strain": [-0.5, 2.0],
+    "fit_error": 3.0,
+    "fit_modulus_error": 3.0,
 }
 """Values for optional keys that the shipped ones leave out."""
 
