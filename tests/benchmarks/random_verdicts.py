@@ -100,7 +100,17 @@ def row_of(design: Design) -> dict[str, Any]:
     except (BellowsError, MeshingError) as error:
         return row | {"error": str(error), "seconds": time.perf_counter() - began}
     row |= _decided(design, found) | {"seconds": time.perf_counter() - began}
+    row |= {"meshes": _meshes(found)}
     return row | {"finer": finer_of(design, found)} if found.converged else row
+
+
+def _meshes(found: Evaluation) -> list[dict[str, float]]:
+    """What each mesh says: the error estimates come from these."""
+    readings = (mesh.reading for mesh in found.meshes)
+    return [
+        {"angle": one.bending_angle_deg, "stress": one.max_von_mises_mpa, "scatter": peak.scatter}
+        for one, peak in zip(readings, found.computation.peaks, strict=True)
+    ]
 
 
 def finer_of(design: Design, found: Evaluation) -> dict[str, Any]:
