@@ -9,8 +9,14 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from bellows_design.cli.answer import DONE, NOT_SOLVED, REFUSED, Answer
+from bellows_design.cli.answer import DONE, NOT_SOLVED, REFUSED, Answer, unwritten
 from bellows_design.cli.output_files import require_file, require_folder, require_plot
+from bellows_design.cli.surroundings.memory import (
+    CHECK,
+    EVALUATION,
+    GEOMETRY,
+    require_address_space,
+)
 
 if TYPE_CHECKING:
     from bellows_design.cli.options import BudgetOptions, DesignOptions
@@ -30,6 +36,7 @@ def design(options: DesignOptions, output: Path) -> Answer:
     from bellows_design.pipeline import build_part
     from bellows_design.progress import on_stderr
 
+    require_address_space(GEOMETRY)
     chosen = options.load()
     writer_for(output)
     require_folder(output)
@@ -56,6 +63,7 @@ def check(options: DesignOptions, printer: str | None) -> Answer:
     from bellows_design.reports.check import check_table
     from printers import load_profile
 
+    require_address_space(CHECK)
     chosen = options.load()
     load_profile(printer or chosen.printer)
     with on_stderr() as progress:
@@ -80,6 +88,7 @@ def evaluate(
     from bellows_design.progress import on_stderr
     from bellows_design.reports.evaluation import evaluation_table
 
+    require_address_space(EVALUATION)
     pressures = () if pressure is None else parse_pressures(pressure)
     chosen = options.load(pressures[-1] if pressures else None)
     require_file(vtu, ".vtu")
@@ -88,10 +97,10 @@ def evaluate(
 
     with on_stderr() as progress:
         found = analysis.evaluate(chosen, model, accuracy, pressures, progress, budget=budget)
-        if vtu is not None:
-            analysis.write_vtu(found, vtu)
+        writers = () if vtu is None else (lambda: analysis.write_vtu(found, vtu),)
+        failed = unwritten(*writers)
     status = DONE if found.converged else NOT_SOLVED
-    return Answer(found.to_dict(), evaluation_table(found), status)
+    return Answer(found.to_dict(), evaluation_table(found), status, failed)
 
 
 def run(options: DesignOptions, output: Path, limits: BudgetOptions) -> Answer:
@@ -101,6 +110,7 @@ def run(options: DesignOptions, output: Path, limits: BudgetOptions) -> Answer:
     from bellows_design.reports.outcome import outcome_table
     from printers import load_profile
 
+    require_address_space(EVALUATION)
     chosen = options.load(rename=True)
     load_profile(chosen.printer)
     budget = limits.budget()
@@ -125,6 +135,7 @@ def benchmark(
     from bellows_design.reports.benchmark import benchmark_tables
     from bellows_design.reports.benchmark_plot import plot_benchmark
 
+    require_address_space(EVALUATION)
     chosen = options.load()
     budget = limits.budget()
     require_file(output, ".json")
@@ -135,8 +146,9 @@ def benchmark(
     with on_stderr() as progress:
         study = benchmarks.study(chosen, names, meshes, progress, budget=budget)
     content = study.to_dict()
-    if output is not None:
-        write_json(content, output)
-    if plot is not None:
-        plot_benchmark(study, plot)
-    return Answer(content, benchmark_tables(study), DONE if study.converged else NOT_SOLVED)
+    failed = unwritten(
+        *(() if output is None else (lambda: write_json(content, output),)),
+        *(() if plot is None else (lambda: plot_benchmark(study, plot),)),
+    )
+    status = DONE if study.converged else NOT_SOLVED
+    return Answer(content, benchmark_tables(study), status, failed)

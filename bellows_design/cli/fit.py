@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 import re
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from bellows_design.cli.answer import DONE, REFUSED, Answer
+from bellows_design.cli.answer import DONE, REFUSED, Answer, unwritten
 from bellows_design.cli.output_files import require_file, require_plot
 from bellows_design.errors import DesignError
 from bellows_design.materials.laws import BEST
@@ -39,8 +40,10 @@ def fit(
     choice = fit_measurements(measurements, model)
     refused = why_no_material(measurements, choice.fit)
     report = FitReport(measurements, model, choice, refused, None if refused else output, plot)
-    _write(report, yield_strength)
-    return Answer(report.to_dict(), fit_table(report), REFUSED if refused else DONE)
+    failed = unwritten(lambda: _write(report, yield_strength))
+    if failed is not None:
+        report = replace(report, material_file=None, plot_file=None)
+    return Answer(report.to_dict(), fit_table(report), REFUSED if refused else DONE, failed)
 
 
 def _check(output: Path | None, yield_strength: float | None, plot: Path | None) -> None:

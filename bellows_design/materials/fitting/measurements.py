@@ -21,6 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bellows_design.errors import DesignError
+from bellows_design.files.guarded import decoded, read_file
 from bellows_design.validation.quoting import did_you_mean, quoted, quoted_path
 from solver.arrays import Reals
 from solver.material.homogeneous import MODES
@@ -128,26 +129,7 @@ _Point = tuple[int, float, float, str]
 
 def _read(path: Path) -> str:
     given = quoted_path(path)
-    try:
-        if path.is_dir():
-            raise DesignError(f"{given} is a folder, not a file of measurements.")
-        if not path.is_file():
-            raise DesignError(f"there is no file {given}.")
-        if path.stat().st_size > LARGEST_FILE:
-            raise DesignError(f"{given} has {path.stat().st_size} bytes; at most 20 MB are read.")
-        content = path.read_bytes()
-    except (OSError, ValueError) as error:  # ValueError: a null byte in the path
-        if isinstance(error, DesignError):
-            raise
-        raise DesignError(f"cannot read {given}: {getattr(error, 'strerror', error)}.") from None
-    return _decoded(content, given)
-
-
-def _decoded(content: bytes, given: str) -> str:
-    try:
-        text = content.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        raise DesignError(f"{given} is not a text file in UTF-8.") from None
+    text = decoded(read_file(path, "measurements", LARGEST_FILE), given)
     if "\0" in text:
         raise DesignError(f"{given} is not a text file: it has a null character.")
     return text
