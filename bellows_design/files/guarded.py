@@ -27,9 +27,11 @@ def read_file(path: Path, noun: str, most: int, shown: str = "") -> bytes:
     given = quoted_path(shown or path)
     try:
         descriptor = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | _BINARY)
-        with open(descriptor, "rb", buffering=0) as file:
+        try:
             _require_regular(os.fstat(descriptor).st_mode, given, noun)
-            return _content(file.fileno(), given, noun, most)
+            return _content(descriptor, given, noun, most)
+        finally:
+            os.close(descriptor)
     except FileNotFoundError:
         raise DesignError(f"there is no file {given}.") from None
     except (OSError, ValueError) as error:  # ValueError: a null byte in the path
