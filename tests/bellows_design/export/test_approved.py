@@ -226,7 +226,7 @@ def test_a_folder_without_our_manifest_is_not_withdrawn(tmp_path: Path) -> None:
 
 def test_replacing_needs_the_folder(tmp_path: Path) -> None:
     with (
-        pytest.raises(OSError, match="“file.txt” cannot be written: No such file"),
+        pytest.raises(OSError, match=r"“file\.txt” cannot be written: No such file"),
         atomic.replacing(tmp_path / "missing" / "file.txt"),
     ):
         pass
