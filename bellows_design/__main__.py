@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import atexit
+import os
 import sys
 
 from bellows_design.cli.early_signals import leave_at_signals
@@ -15,7 +17,15 @@ def main() -> None:
 
     output = use_tolerant_streams()
     use_plain_environment()
-    sys.exit(final_status(output, _status()))
+    _leave(final_status(output, _status()))
+
+
+def _leave(status: int) -> None:
+    """End the process; taking apart what was compiled and loaded would take another second."""
+    atexit._run_exitfuncs()
+    sys.stdout.flush()
+    sys.stderr.flush()
+    os._exit(status)
 
 
 def _status() -> int:

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 from bellows_design.cli.early_signals import ended_by
-from bellows_design.cli.interruption import interruption_in, raising_signals
+from bellows_design.cli.interruption import ended_in_time, interruption_in, raising_signals
 from bellows_design.errors import BellowsError, CannotWrite
 
 if TYPE_CHECKING:
@@ -49,7 +49,12 @@ class Answer:
 def answer(work: Callable[[], Answer], as_json: bool) -> None:
     """Do ``work`` and print its answer, or one sentence on why there is none; then exit."""
     try:
-        with raising_signals() as signals, stdout_is_stderr(), rare_garbage_collection():
+        with (
+            raising_signals() as signals,
+            stdout_is_stderr() as stdout,
+            ended_in_time(lambda number: _leave(number, stdout if as_json else None)),
+            rare_garbage_collection(),
+        ):
             result = work()
     except BaseException as error:
         if isinstance(error, SystemExit | GeneratorExit):
@@ -125,15 +130,18 @@ def _status_of_user_error(error: BaseException) -> int | None:
 
 
 @contextmanager
-def stdout_is_stderr() -> Iterator[None]:
-    """Within the block, whatever is written to stdout, from C too, comes out on stderr."""
+def stdout_is_stderr() -> Iterator[int]:
+    """Within the block, whatever is written to stdout, from C too, comes out on stderr.
+
+    Yields the number of the file that stdout led to.
+    """
     python_stdout = sys.stdout
     sys.stdout.flush()
     saved = os.dup(1)
     try:
         os.dup2(2, 1)
         sys.stdout = sys.stderr
-        yield
+        yield saved
     finally:
         sys.stdout = python_stdout
         with suppress(OSError):
@@ -158,6 +166,21 @@ def _flush_c_streams() -> None:
     import ctypes
 
     ctypes.CDLL(None).fflush(None)
+
+
+def _leave(number: int, json_to: int | None) -> None:
+    """End the process at once because of a signal; with an answer on the file ``json_to``."""
+    from bellows_design.files.atomic import remove_unfinished
+    from bellows_design.files.json_files import json_text
+
+    remove_unfinished()
+    sentence, status = ended_by(number)
+    with suppress(OSError):
+        os.write(2, f"bellows: {sentence}\n".encode())
+    with suppress(OSError):
+        if json_to is not None:
+            os.write(json_to, json_text({"error": sentence, "exit_status": status}).encode())
+    os._exit(status)
 
 
 def _print_traceback(error: BaseException) -> None:

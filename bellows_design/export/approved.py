@@ -29,6 +29,7 @@ from bellows_design.export.formats import WRITERS
 from bellows_design.export.part import Part
 from bellows_design.export.read_back import require_same
 from bellows_design.files.atomic import (
+    at_work,
     open_to_readers,
     remove_leftovers,
     require_writable,
@@ -126,14 +127,11 @@ def _folder(place: Path) -> Iterator[None]:
 def _replace(target: Path, part: Part, verdict: Verdict, grounds: Mapping[str, Any]) -> None:
     """Make the export under a hidden name, look at what came of it, and put it in place."""
     remove_leftovers(target.parent)
-    fresh = temporary_beside(target)
-    try:
+    with at_work(target) as fresh:
         fresh.mkdir(mode=0o700)
         with locked(fresh):
             _require_written(fresh, part, _fill(fresh, part, verdict, grounds))
             _swap(fresh, target)
-    finally:
-        shutil.rmtree(fresh, ignore_errors=True)
 
 
 def _fill(

@@ -59,16 +59,37 @@ def require_writable(target: Path) -> None:
 
 
 @contextmanager
+def at_work(target: Path) -> Iterator[Path]:
+    """A path beside ``target`` for what is not complete yet; what stands there goes with the block.
+
+    It goes too if the process is ended by ``remove_unfinished`` within the block.
+    """
+    temporary = temporary_beside(target)
+    unfinished = _unfinished(os.getpid())
+    unfinished.add(temporary)
+    try:
+        yield temporary
+    finally:
+        with suppress(OSError):
+            remove(temporary)
+        unfinished.discard(temporary)
+
+
+def remove_unfinished() -> None:
+    """Remove what this process is at work on: it ends at once."""
+    for path in tuple(_unfinished(os.getpid())):
+        with suppress(OSError):
+            remove(path)
+
+
+@contextmanager
 def _file_at_work(target: Path) -> Iterator[Path]:
     """An empty private file beside ``target``, locked, and gone after the block."""
     remove_leftovers(target.parent)
-    temporary = temporary_beside(target)
-    try:  # from before there is a file: an interrupt may come at any time
+    with at_work(target) as temporary:
         temporary.touch(mode=0o600, exist_ok=False)
         with locked(temporary):
             yield temporary
-    finally:
-        temporary.unlink(missing_ok=True)
 
 
 def temporary_beside(target: Path) -> Path:
@@ -139,6 +160,12 @@ def _is_left_over(name: str) -> bool:
     if process == os.getpid():  # an earlier one may have had the same number
         return session != _session(process)
     return not _is_running(process)
+
+
+@cache
+def _unfinished(process: int) -> set[Path]:
+    """What the process is at work on; a forked copy of it begins with nothing."""
+    return set()
 
 
 @cache
