@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from bellows_design.cli.answer import DONE, NOT_SOLVED, REFUSED, Answer, unwritten
 from bellows_design.cli.output_files import require_file, require_folder, require_plot
+from bellows_design.cli.surroundings.environment import require_working_folder
 from bellows_design.cli.surroundings.memory import (
     CHECK,
     EVALUATION,
@@ -88,6 +89,7 @@ def evaluate(
     from bellows_design.progress import on_stderr
     from bellows_design.reports.evaluation import evaluation_table
 
+    require_working_folder()
     require_address_space(EVALUATION)
     pressures = () if pressure is None else parse_pressures(pressure)
     chosen = options.load(pressures[-1] if pressures else None)
@@ -110,6 +112,7 @@ def run(options: DesignOptions, output: Path, limits: BudgetOptions) -> Answer:
     from bellows_design.reports.outcome import outcome_table
     from printers import load_profile
 
+    require_working_folder()
     require_address_space(EVALUATION)
     chosen = options.load(rename=True)
     load_profile(chosen.printer)
@@ -135,6 +138,7 @@ def benchmark(
     from bellows_design.reports.benchmark import benchmark_tables
     from bellows_design.reports.benchmark_plot import plot_benchmark
 
+    require_working_folder()
     require_address_space(EVALUATION)
     chosen = options.load()
     budget = limits.budget()

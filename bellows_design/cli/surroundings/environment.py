@@ -7,17 +7,16 @@ warnings as errors, threads of a name that does not exist, and a stack too small
 from __future__ import annotations
 
 import os
-import sys
 import warnings
+
+from bellows_design.errors import DesignError
+from solver.meshing.limits import allow_stack
 
 WIDTHS = ("COLUMNS", "LINES", "TERMINAL_WIDTH")
 SMALLEST_WIDTH, LARGEST_WIDTH = 20, 10_000
 
 THREADING_LAYERS = {"default", "safe", "threadsafe", "forksafe", "tbb", "omp", "workqueue"}
 """What numba knows."""
-
-STACK = 8 * 2**20
-"""Bytes, the usual limit of a stack. The CAD kernel and Gmsh crash at a tenth of it."""
 
 
 def use_plain_environment() -> None:
@@ -27,26 +26,21 @@ def use_plain_environment() -> None:
             del os.environ[name]
     if os.environ.get("NUMBA_THREADING_LAYER", "default") not in THREADING_LAYERS:
         del os.environ["NUMBA_THREADING_LAYER"]
-    if any(option.startswith("error") for option in sys.warnoptions):
+    if any(action == "error" for action, *_ in warnings.filters):
         os.environ.pop("PYTHONWARNINGS", None)
         warnings.resetwarnings()
         warnings.simplefilter("ignore")
-    allow_stack(STACK)
+    allow_stack()
 
 
-def allow_stack(size: int) -> int:
-    """Raise this process's limit of the stack to ``size`` bytes, if it may; returns the limit."""
-    if sys.platform == "win32":
-        return size
-    import resource
-
-    soft, hard = resource.getrlimit(resource.RLIMIT_STACK)
-    unlimited = resource.RLIM_INFINITY
-    if soft == unlimited or soft >= size:
-        return size
-    wanted = size if hard == unlimited else min(size, hard)
-    resource.setrlimit(resource.RLIMIT_STACK, (wanted, hard))
-    return wanted
+def require_working_folder() -> None:
+    """Raise ``DesignError`` if the working folder was deleted: MKL ends the process then."""
+    try:
+        os.getcwd()
+    except FileNotFoundError:
+        raise DesignError(
+            "the working folder was deleted; change to another one, and try again."
+        ) from None
 
 
 def _is_width(text: str) -> bool:
