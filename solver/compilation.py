@@ -40,6 +40,8 @@ class _Cache(FunctionCache):
         try:
             return super().load_overload(*arguments)
         except (OSError, EOFError, UnpicklingError, ValueError):  # damaged, or another's
+            with suppress(OSError):
+                self.flush()
             return None
 
     def save_overload(self, *arguments: Any) -> None:

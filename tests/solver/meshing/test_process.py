@@ -6,6 +6,7 @@ import os
 import signal
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 from collections.abc import Callable
@@ -238,3 +239,44 @@ def test_a_message_cut_short_is_none() -> None:
     send(stream, Message({"a": 1}, {"b": np.arange(9.0)}))  # type: ignore[arg-type]
     for size in range(len(stream.getvalue())):
         assert receive(BytesIO(stream.getvalue()[:size])) is None  # type: ignore[arg-type]
+
+
+DELETED = """
+import os, sys, tempfile
+from pathlib import Path
+from solver.meshing import mesh_solid
+tempfile.tempdir = sys.argv[1]
+content = Path(sys.argv[2]).read_bytes()
+os.rmdir(os.getcwd())
+sys.path.append("relative")
+print(len(mesh_solid(content, ["skin"]).tets) > 0, end="")
+"""
+
+
+@POSIX
+@pytest.mark.parametrize("name", ["temporary", os.fsdecode(b"\xff")])
+def test_neither_a_deleted_working_folder_nor_a_strange_temporary_one_matters(
+    name: str, tmp_path: Path
+) -> None:
+    for folder in ("gone", name):
+        (tmp_path / folder).mkdir()
+    (tmp_path / "ball.brep").write_bytes(ball())
+    done = subprocess.run(
+        [sys.executable, "-c", DELETED, str(tmp_path / name), str(tmp_path / "ball.brep")],
+        cwd=tmp_path / "gone",
+        env={**os.environ, "PYTHONPATH": str(ROOT), "PYTHONWARNINGS": "error::SyntaxWarning"},
+        capture_output=True,
+        encoding="utf-8",
+    )
+    assert (done.stdout, done.returncode) == ("True", 0), done.stderr
+    assert list((tmp_path / name).iterdir()) == []
+
+
+def test_a_mesher_that_cannot_be_started_leaves_no_folder(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    monkeypatch.setattr(meshing_process, "_launched", lambda _: [][0])
+    with pytest.raises(IndexError):
+        meshing_process._Process()
+    assert list(tmp_path.iterdir()) == []
