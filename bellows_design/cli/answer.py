@@ -18,7 +18,8 @@ import typer
 
 from bellows_design.cli.early_signals import ended_by
 from bellows_design.cli.interruption import ended_in_time, interruption_in, raising_signals
-from bellows_design.errors import BellowsError, CannotWrite
+from bellows_design.errors import BellowsError
+from bellows_design.files.errors import CannotWrite
 
 if TYPE_CHECKING:
     from rich.console import RenderableType

@@ -24,7 +24,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from bellows_design.errors import BellowsError, CannotWrite, DesignError
+from bellows_design.errors import BellowsError, DesignError
 from bellows_design.export.formats import WRITERS
 from bellows_design.export.part import Part
 from bellows_design.export.read_back import require_same
@@ -35,6 +35,7 @@ from bellows_design.files.atomic import (
     require_writable,
     temporary_beside,
 )
+from bellows_design.files.errors import CannotWrite
 from bellows_design.files.json_files import json_text
 from bellows_design.files.locks import locked
 from bellows_design.validation.quoting import quoted

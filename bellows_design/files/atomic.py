@@ -20,7 +20,7 @@ from contextlib import contextmanager, suppress
 from functools import cache
 from pathlib import Path
 
-from bellows_design.errors import CannotWrite
+from bellows_design.files.errors import CannotWrite
 from bellows_design.files.locks import is_locked, locked
 
 MARK = "bellows-tmp"

@@ -12,11 +12,11 @@ import numpy as np
 import pytest
 
 from bellows_design.approval import Verdict
-from bellows_design.errors import CannotWrite
 from bellows_design.export import approved
 from bellows_design.export.approved import export_approved
 from bellows_design.export.formats import WRITERS, Part
 from bellows_design.export.read_back import READERS, NotThePart
+from bellows_design.files.errors import CannotWrite
 from bellows_design.geometry.tessellation import ClosedMesh
 
 APPROVED = Verdict(())

@@ -16,11 +16,12 @@ import pytest
 from real_command import ROOT, bellows
 
 from bellows_design.approval import Verdict
-from bellows_design.errors import CannotWrite, DesignError
+from bellows_design.errors import DesignError
 from bellows_design.export import approved
 from bellows_design.export.approved import export_approved, require_place
 from bellows_design.export.formats import WRITERS, Part, write_part
 from bellows_design.files.atomic import MARK, require_writable
+from bellows_design.files.errors import CannotWrite
 from bellows_design.files.locks import locked
 
 POSIX = pytest.mark.skipif(sys.platform == "win32", reason="limits and names of POSIX")
