@@ -26,7 +26,8 @@ STDIN, STDOUT, STDERR = 0, 1, 2
 def main() -> None:
     """Answer jobs until stdin ends."""
     folder = Path(sys.argv[1])
-    os.environ["HOME"] = os.environ["APPDATA"] = str(folder)  # Gmsh's FLTK leaves settings there
+    for name in ("HOME", "APPDATA", "TMPDIR"):  # Gmsh's FLTK and other libraries leave files there
+        os.environ[name] = str(folder)
     answers = FileIO(os.dup(STDOUT), "wb")
     os.dup2(STDERR, STDOUT)  # keeps what C code prints out of the answers
     jobs: SimpleQueue[Any] = SimpleQueue()

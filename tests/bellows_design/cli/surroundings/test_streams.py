@@ -37,7 +37,7 @@ def test_sentences_that_cannot_be_written_leave_answer_and_status(redirected: st
 
 @pytest.mark.slow
 @pytest.mark.parametrize("redirected", ["2>/dev/full", "2>&-"])
-@pytest.mark.parametrize(("wall", "status"), [("1.2", 0), ("0.9", 1)])
+@pytest.mark.parametrize(("wall", "status"), [("1.2", 0), ("1.3", 1)])
 def test_a_verdict_is_not_lost_with_the_progress(redirected: str, wall: str, status: int) -> None:
     settings = ("--set", f"bubble_thickness={wall}")
     ended = bellows("check", "finger", *settings, "--json", redirected=redirected)
