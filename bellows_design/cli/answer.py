@@ -7,6 +7,7 @@ leads to stderr, so that a JSON answer stands alone.
 from __future__ import annotations
 
 import gc
+import json
 import os
 import sys
 from collections.abc import Callable, Iterator, Sequence
@@ -31,6 +32,13 @@ TRACEBACK = "BELLOWS_TRACEBACK"
 OBJECTS_BETWEEN_COLLECTIONS = 50_000
 """At Python's own 700 the collector runs a thousand times while an evaluation loads its libraries,
 whose objects all stay."""
+
+
+CLEARING_UP = {
+    "solver.meshing.process": "kill",
+    "bellows_design.files.atomic": "remove_unfinished",
+}
+"""Modules, and their functions that remove what is unfinished when a process ends at once."""
 
 
 @dataclass(frozen=True)
@@ -171,16 +179,16 @@ def _flush_c_streams() -> None:
 
 def _leave(number: int, json_to: int | None) -> None:
     """End the process at once because of a signal; with an answer on the file ``json_to``."""
-    from bellows_design.files.atomic import remove_unfinished
-    from bellows_design.files.json_files import json_text
-
-    remove_unfinished()
+    for module, clear_up in CLEARING_UP.items():
+        if module in sys.modules:  # the main thread may be importing it: to import it would wait
+            getattr(sys.modules[module], clear_up, int)()
     sentence, status = ended_by(number)
     with suppress(OSError):
         os.write(2, f"bellows: {sentence}\n".encode())
     with suppress(OSError):
         if json_to is not None:
-            os.write(json_to, json_text({"error": sentence, "exit_status": status}).encode())
+            content = {"error": sentence, "exit_status": status}
+            os.write(json_to, json.dumps(content, indent=2).encode() + b"\n")
     os._exit(status)
 
 

@@ -82,14 +82,15 @@ def ended_in_time(leave: Callable[[int], object]) -> Iterator[None]:
     if not _handled_signals():
         yield
         return
-    over, (reader, writer) = threading.Event(), os.pipe()
+    over, last_word, (reader, writer) = threading.Event(), threading.Lock(), os.pipe()
     os.set_blocking(writer, False)
     usual = signal.set_wakeup_fd(writer, warn_on_full_buffer=False)
-    threading.Thread(target=_watch, args=(reader, over, leave), daemon=True).start()
+    threading.Thread(target=_watch, args=(reader, over, last_word, leave), daemon=True).start()
     try:
         yield
     finally:
-        over.set()
+        with last_word:  # the other thread has it: the process is about to end
+            over.set()
         signal.set_wakeup_fd(usual)
         os.close(writer)
 
@@ -101,12 +102,19 @@ def interruption_in(error: BaseException | None) -> int | None:
     return None if error is None else int(getattr(error, "number", signal.SIGINT))
 
 
-def _watch(reader: int, over: threading.Event, leave: Callable[[int], object]) -> None:
+def _watch(
+    reader: int,
+    over: threading.Event,
+    last_word: threading.Lock,
+    leave: Callable[[int], object],
+) -> None:
     """Wait for a signal, whose number comes through the pipe, and then for the end of the block."""
     with open(reader, "rb", buffering=0) as numbers:
         while number := numbers.read(1):
             if number[0] in SIGNALS and not over.wait(LONGEST):
-                leave(number[0])
+                with last_word:
+                    if not over.is_set():
+                        leave(number[0])
 
 
 def _must_end_first(frame: FrameType | None) -> bool:

@@ -66,6 +66,11 @@ def ask(job: Message, seconds: float) -> Message:
     return _mesher(os.getpid()).ask(job, seconds)
 
 
+def kill() -> None:
+    """Kill the process and remove its folder: this program ends at once, by any of its threads."""
+    _mesher(os.getpid()).kill()
+
+
 @cache
 def _mesher(process: int) -> _Mesher:
     """The mesher of this program; a forked copy of the program gets its own."""
@@ -94,6 +99,11 @@ class _Mesher:
                 self._process = None
                 process.end()
                 raise
+
+    def kill(self) -> None:
+        process = self._process  # another thread, which waits for an answer, has the lock
+        if process is not None:
+            process.kill()
 
     def _running(self) -> _Process:
         if self._process is None or not self._process.alive:
@@ -128,6 +138,11 @@ class _Process:
     @property
     def alive(self) -> bool:
         return self._process.poll() is None
+
+    def kill(self) -> None:
+        self._process.kill()
+        self._process.wait()
+        shutil.rmtree(self._folder, ignore_errors=True)
 
     def ask(self, job: Message, seconds: float) -> Message:
         deadline = time.monotonic() + seconds
