@@ -18,6 +18,9 @@ from bellows_design.versions import versions
 
 MIB, GIB = 2**20, 2**30
 
+ADDRESSES_OF_LIBRARIES = 1.4
+"""GiB of address space that the libraries take without using memory."""
+
 CONTROL_GROUPS = (
     Path("/sys/fs/cgroup/memory.max"),
     Path("/sys/fs/cgroup/memory/memory.limit_in_bytes"),
@@ -61,9 +64,24 @@ def machine() -> Machine:
 
 @cache
 def memory_gib() -> float | None:
-    """Memory of this machine, or of the container this runs in, GiB; None where unknown."""
+    """Memory of this machine, or of the container this runs in, GiB; None where unknown.
+
+    Where the address space of the process is limited, what that leaves beside the libraries.
+    """
     known = [size for size in (_physical_memory(), *map(_limit_in, CONTROL_GROUPS)) if size]
+    space = address_space_gib()
+    known += [] if space is None else [max(0.0, space - ADDRESSES_OF_LIBRARIES)]
     return min(known, default=None)
+
+
+def address_space_gib() -> float | None:
+    """Limit of this process's address space (``ulimit -v``), GiB; None without one."""
+    try:
+        import resource
+    except ImportError:  # Windows
+        return None
+    limit, _ = resource.getrlimit(resource.RLIMIT_AS)
+    return None if limit == resource.RLIM_INFINITY else limit / GIB
 
 
 def peak_memory_mib() -> float | None:

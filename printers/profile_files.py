@@ -6,6 +6,7 @@ Profiles ship in `profiles/`; other packages add theirs as data files through th
 
 from __future__ import annotations
 
+import os
 import tomllib
 from importlib.metadata import EntryPoint, entry_points
 from importlib.resources import files
@@ -20,7 +21,7 @@ from printers.toml_errors import toml_error
 ENTRY_POINT_GROUP = "bellows_design.printers"
 
 LARGEST_FILE = 1_000_000
-"""Characters. No profile is longer; a larger file was named by mistake."""
+"""Bytes. No profile is longer; a larger file was named by mistake."""
 
 MOST_DOTS = 100
 """In a line. The time that TOML takes to read grows with the square of a dotted key's parts."""
@@ -118,11 +119,28 @@ def _text(source: Traversable) -> str:
     """The file's text, a mark at its beginning left out; ValueError if it is none or too long."""
     if isinstance(source, Path) and source.exists() and not (source.is_file() or source.is_dir()):
         raise ValueError("it is no file")  # reading from a pipe would wait for a writer
-    with source.open("r", encoding="utf-8-sig") as file:
-        text = file.read(LARGEST_FILE + 1)
-    if len(text) > LARGEST_FILE:
+    content = _content(source) if isinstance(source, Path) else source.read_bytes()
+    if len(content) > LARGEST_FILE:
         raise ValueError("it is larger than 1 MB")
-    return text
+    return content.decode("utf-8-sig")
+
+
+def _content(path: Path) -> bytes:
+    """So much of the file that it is seen whether it is too long."""
+    content = b""
+    with open(path, "rb", buffering=0, opener=_without_waiting) as file:
+        while len(content) <= LARGEST_FILE:
+            piece = file.read(LARGEST_FILE)
+            if piece is None:  # a file of the kernel's, such as /proc/kmsg
+                raise ValueError("it has no end")
+            if not piece:
+                break
+            content += piece
+    return content
+
+
+def _without_waiting(path: str, flags: int) -> int:
+    return os.open(path, flags | getattr(os, "O_NONBLOCK", 0))
 
 
 def _parsed(text: str) -> dict[str, Any]:

@@ -9,8 +9,15 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from bellows_design.cli.answer import DONE, NOT_SOLVED, REFUSED, Answer
+from bellows_design.cli.answer import DONE, NOT_SOLVED, REFUSED, Answer, unwritten
 from bellows_design.cli.output_files import require_file, require_folder, require_plot
+from bellows_design.cli.surroundings.environment import require_working_folder
+from bellows_design.cli.surroundings.memory import (
+    CHECK,
+    EVALUATION,
+    GEOMETRY,
+    require_address_space,
+)
 from bellows_design.errors import DesignError
 from bellows_design.validation.quoting import quoted
 
@@ -47,6 +54,7 @@ def design(options: DesignOptions, output: Path) -> Answer:
     from bellows_design.pipeline import build_part
     from bellows_design.progress import on_stderr
 
+    require_address_space(GEOMETRY)
     chosen = options.load()
     writer_for(output)
     require_folder(output)
@@ -72,6 +80,7 @@ def check(options: DesignOptions) -> Answer:
     from bellows_design.progress import on_stderr
     from bellows_design.reports.check import check_table
 
+    require_address_space(CHECK)
     chosen = options.load()
     chosen.profile()
     with on_stderr() as progress:
@@ -96,6 +105,8 @@ def evaluate(
     from bellows_design.progress import on_stderr
     from bellows_design.reports.evaluation import evaluation_table
 
+    require_working_folder()
+    require_address_space(EVALUATION)
     pressures = () if pressure is None else parse_pressures(pressure)
     chosen = options.load(pressures[-1] if pressures else None)
     require_file(vtu, ".vtu")
@@ -104,10 +115,10 @@ def evaluate(
 
     with on_stderr() as progress:
         found = analysis.evaluate(chosen, model, accuracy, pressures, progress, budget=budget)
-        if vtu is not None:
-            analysis.write_vtu(found, vtu)
+        writers = () if vtu is None else (lambda: analysis.write_vtu(found, vtu),)
+        failed = unwritten(*writers)
     status = DONE if found.converged else NOT_SOLVED
-    return Answer(found.to_dict(), evaluation_table(found), status)
+    return Answer(found.to_dict(), evaluation_table(found), status, failed)
 
 
 def run(options: DesignOptions, output: Path, limits: BudgetOptions) -> Answer:
@@ -116,6 +127,8 @@ def run(options: DesignOptions, output: Path, limits: BudgetOptions) -> Answer:
     from bellows_design.progress import on_stderr
     from bellows_design.reports.outcome import outcome_table
 
+    require_working_folder()
+    require_address_space(EVALUATION)
     chosen = options.load(rename=True)
     chosen.profile()
     budget = limits.budget()
@@ -140,6 +153,8 @@ def benchmark(
     from bellows_design.reports.benchmark import benchmark_tables
     from bellows_design.reports.benchmark_plot import plot_benchmark
 
+    require_working_folder()
+    require_address_space(EVALUATION)
     chosen = options.load()
     budget = limits.budget()
     require_file(output, ".json")
@@ -150,8 +165,9 @@ def benchmark(
     with on_stderr() as progress:
         study = benchmarks.study(chosen, names, meshes, progress, budget=budget)
     content = study.to_dict()
-    if output is not None:
-        write_json(content, output)
-    if plot is not None:
-        plot_benchmark(study, plot)
-    return Answer(content, benchmark_tables(study), DONE if study.converged else NOT_SOLVED)
+    failed = unwritten(
+        *(() if output is None else (lambda: write_json(content, output),)),
+        *(() if plot is None else (lambda: plot_benchmark(study, plot),)),
+    )
+    status = DONE if study.converged else NOT_SOLVED
+    return Answer(content, benchmark_tables(study), status, failed)

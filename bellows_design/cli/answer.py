@@ -7,6 +7,7 @@ leads to stderr, so that a JSON answer stands alone.
 from __future__ import annotations
 
 import gc
+import json
 import os
 import sys
 from collections.abc import Callable, Iterator, Sequence
@@ -17,8 +18,9 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 from bellows_design.cli.early_signals import ended_by
-from bellows_design.cli.interruption import interruption_in, raising_signals
+from bellows_design.cli.interruption import ended_in_time, interruption_in, raising_signals
 from bellows_design.errors import BellowsError
+from bellows_design.files.errors import CannotWrite
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -32,23 +34,42 @@ OBJECTS_BETWEEN_COLLECTIONS = 50_000
 whose objects all stay."""
 
 
+CLEARING_UP = {
+    "solver.meshing.process": "kill",
+    "bellows_design.files.atomic": "remove_unfinished",
+}
+"""Modules, and their functions that remove what is unfinished when a process ends at once."""
+
+
 @dataclass(frozen=True)
 class Answer:
-    """What a command found: for a program, for a person, and as an exit status."""
+    """What a command found: for a program, for a person, and as an exit status.
+
+    ``unwritten`` is why a file that was to hold it besides does not; the status is that of an error
+    then.
+    """
 
     content: dict[str, Any]
     text: Sequence[RenderableType]
     status: int = DONE
+    unwritten: CannotWrite | None = None
 
 
 def answer(work: Callable[[], Answer], as_json: bool) -> None:
     """Do ``work`` and print its answer, or one sentence on why there is none; then exit."""
     try:
-        with raising_signals() as signals, stdout_is_stderr(), rare_garbage_collection():
+        with (
+            raising_signals() as signals,
+            stdout_is_stderr() as stdout,
+            ended_in_time(lambda number: _leave(number, stdout if as_json else None)),
+            rare_garbage_collection(),
+        ):
             result = work()
     except BaseException as error:
-        if os.environ.get(TRACEBACK) or isinstance(error, SystemExit | GeneratorExit):
+        if isinstance(error, SystemExit | GeneratorExit):
             raise
+        if os.environ.get(TRACEBACK):
+            _print_traceback(error)
         sentence, status = ended_by(signals.received[0]) if signals.received else explained(error)
         typer.echo(f"bellows: {sentence}", err=True)
         if as_json:
@@ -58,19 +79,38 @@ def answer(work: Callable[[], Answer], as_json: bool) -> None:
         _print_json(result.content)
     else:
         _print_text(result.text)
+    if result.unwritten is not None:
+        typer.echo(f"bellows: {result.unwritten}.", err=True)
+        raise typer.Exit(BAD_INPUT)
     raise typer.Exit(result.status)
+
+
+def unwritten(*writers: Callable[[], None]) -> CannotWrite | None:
+    """Call ``writers``; why the first that fails cannot write its file, None if all can."""
+    try:
+        for write in writers:
+            write()
+    except CannotWrite as error:
+        return error
+    return None
 
 
 def explained(error: BaseException) -> tuple[str, int]:
     """One sentence for people and the exit status for ``error``."""
+    from bellows_design.cli.surroundings.memory import want_of_memory
     from bellows_design.cli.system_libraries import missing_library
 
+    want = want_of_memory(error)
+    if want is not None:
+        return want, NOT_SOLVED
     missing = missing_library(error)
     if missing is not None:
         return missing, INTERNAL
     interruption = interruption_in(error)
     if interruption is not None:
         return ended_by(interruption)
+    if isinstance(error, CannotWrite):
+        return f"{error}.", BAD_INPUT
     if isinstance(error, OSError) and error.strerror:
         place = f"{error.filename}: " if error.filename else ""
         return f"{place}{error.strerror}.", BAD_INPUT
@@ -99,15 +139,18 @@ def _status_of_user_error(error: BaseException) -> int | None:
 
 
 @contextmanager
-def stdout_is_stderr() -> Iterator[None]:
-    """Within the block, whatever is written to stdout, from C too, comes out on stderr."""
+def stdout_is_stderr() -> Iterator[int]:
+    """Within the block, whatever is written to stdout, from C too, comes out on stderr.
+
+    Yields the number of the file that stdout led to.
+    """
     python_stdout = sys.stdout
     sys.stdout.flush()
     saved = os.dup(1)
     try:
         os.dup2(2, 1)
         sys.stdout = sys.stderr
-        yield
+        yield saved
     finally:
         sys.stdout = python_stdout
         with suppress(OSError):
@@ -134,11 +177,36 @@ def _flush_c_streams() -> None:
     ctypes.CDLL(None).fflush(None)
 
 
+def _leave(number: int, json_to: int | None) -> None:
+    """End the process at once because of a signal; with an answer on the file ``json_to``."""
+    for module, clear_up in CLEARING_UP.items():
+        if module in sys.modules:  # the main thread may be importing it: to import it would wait
+            getattr(sys.modules[module], clear_up, int)()
+    sentence, status = ended_by(number)
+    with suppress(OSError):
+        os.write(2, f"bellows: {sentence}\n".encode())
+    with suppress(OSError):
+        if json_to is not None:
+            content = {"error": sentence, "exit_status": status}
+            os.write(json_to, json.dumps(content, indent=2).encode() + b"\n")
+    os._exit(status)
+
+
+def _print_traceback(error: BaseException) -> None:
+    import traceback
+
+    typer.echo("".join(traceback.format_exception(error)), err=True)
+
+
 def _print_json(content: dict[str, Any]) -> None:
     from bellows_design.files.json_files import json_text
 
-    _tolerate_any_terminal()
-    typer.echo(json_text(content), nl=False)
+    text = json_text(content)
+    try:
+        text.encode(sys.stdout.encoding)
+    except UnicodeEncodeError:
+        text = json_text(content, only_ascii=True)
+    typer.echo(text, nl=False)
 
 
 def _print_text(lines: Sequence[RenderableType]) -> None:

@@ -1,8 +1,9 @@
 """The command ``bellows``: its subcommands and their options.
 
-Exit status: 0 done or approved; 1 refused, or a printability rule failed; 2 bad input; 3 the
-solver could not reach the load; 4 an internal error; 130 interrupted, 143 terminated. Results go
-to stdout, all else to stderr.
+Exit status: 0 done or approved; 1 refused, or a printability rule failed, and nothing else; 2 bad
+input, or a file or stream that cannot be read or written; 3 the load was not reached, no mesh was
+made, or the memory did not suffice; 4 an internal error; 130 interrupted, 143 terminated. Results
+go to stdout, all else to stderr.
 """
 
 from __future__ import annotations

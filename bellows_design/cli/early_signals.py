@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import os
 import signal
+from contextlib import suppress
 
 SIGNALS = tuple(
     getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)
@@ -28,5 +29,6 @@ def ended_by(number: int) -> tuple[str, int]:
 
 def _leave(number: int, frame: object) -> None:
     sentence, status = ended_by(number)
-    os.write(2, f"bellows: {sentence}\n".encode())
+    with suppress(OSError):  # closed, or full
+        os.write(2, f"bellows: {sentence}\n".encode())
     os._exit(status)

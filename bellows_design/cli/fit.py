@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from bellows_design.cli.answer import DONE, REFUSED, Answer
+from bellows_design.cli.answer import DONE, REFUSED, Answer, unwritten
 from bellows_design.cli.output_files import require_file, require_plot
 from bellows_design.errors import DesignError
 from bellows_design.materials.laws import BEST
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from bellows_design.materials.fitting.fit_result import Fit
     from bellows_design.materials.material import Material
     from bellows_design.materials.measurements.points import Measurements
+    from bellows_design.reports.fit import FitReport
 
 DEFAULT = ReadingOptions()
 
@@ -65,14 +66,13 @@ def fit(
     choice = fit_measurements(measurements, model)
     poor = None if material.accept_poor else why_poor(measurements, choice.fit)
     refused = why_no_material(measurements, choice.fit) or poor
-    written = None if refused else _written(measurements, choice.fit, material)
-    file = None if written is None else material.output
-    report = FitReport(measurements, model, choice, refused, file, plot, written)
-    if plot is not None:
-        from bellows_design.reports.fit_plot import plot_fit
-
-        plot_fit(measurements, choice.fit, plot)
-    return Answer(report.to_dict(), fit_table(report), REFUSED if refused else DONE)
+    made = None if refused else _material(measurements, choice.fit, material)
+    file = None if made is None else material.output
+    report = FitReport(measurements, model, choice, refused, file, plot, made)
+    failed = unwritten(lambda: _write(report))
+    if failed is not None:
+        report = replace(report, material_file=None, plot_file=None, material=None)
+    return Answer(report.to_dict(), fit_table(report), REFUSED if refused else DONE, failed)
 
 
 def _check(material: MaterialOptions, plot: Path | None) -> None:
@@ -100,17 +100,26 @@ def _shown(value: float) -> str:
     return f"{value:g}" if math.isfinite(value) else str(value)
 
 
-def _written(data: Measurements, fit: Fit, wanted: MaterialOptions) -> Material | None:
-    """The material in the file that is asked for; None without one."""
+def _material(data: Measurements, fit: Fit, wanted: MaterialOptions) -> Material | None:
+    """The material that is asked for; None without one."""
     if wanted.output is None or wanted.yield_strength is None:
         return None
     from bellows_design.materials.fitted_material import fitted_material
-    from bellows_design.materials.library import write_material
 
     name = _name(wanted.output)
-    result = fitted_material(data, fit, name, wanted.yield_strength, wanted.elongation_at_break)
-    write_material(result, wanted.output)
-    return result
+    return fitted_material(data, fit, name, wanted.yield_strength, wanted.elongation_at_break)
+
+
+def _write(report: FitReport) -> None:
+    """The files that the report names."""
+    if report.material_file is not None and report.material is not None:
+        from bellows_design.materials.library import write_material
+
+        write_material(report.material, report.material_file)
+    if report.plot_file is not None:
+        from bellows_design.reports.fit_plot import plot_fit
+
+        plot_fit(report.data, report.fit, report.plot_file)
 
 
 def _name(output: Path) -> str:

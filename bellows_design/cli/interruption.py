@@ -2,12 +2,14 @@
 
 While a command works, a signal raises an exception, so that every temporary file is removed. Before
 and after there is nothing to remove, and exceptions would meet half-imported modules: the process
-ends at once.
+ends at once. Where the exception does not get through in time, in an import or in code written in C
+that takes long, such as a compiler, another thread removes what there is and ends the process.
 """
 
 from __future__ import annotations
 
 import _thread
+import os
 import signal
 import sys
 import threading
@@ -24,6 +26,9 @@ Handler = Callable[[int, FrameType | None], None]
 
 SAME_INTERRUPTION = 1.0
 """s. A second signal within that belongs to the first; it does not interrupt removing files."""
+
+LONGEST = 1.0
+"""s. So long a command may take to end by the exception of a signal."""
 
 AGAIN = 0.05
 """s. A signal that comes at a bad moment is looked at again after that."""
@@ -71,11 +76,45 @@ def raising_signals() -> Iterator[Signals]:
         yield signals
 
 
+@contextmanager
+def ended_in_time(leave: Callable[[int], object]) -> Iterator[None]:
+    """Within the block, if a signal does not end it in time, call ``leave`` in another thread."""
+    if not _handled_signals():
+        yield
+        return
+    over, last_word, (reader, writer) = threading.Event(), threading.Lock(), os.pipe()
+    os.set_blocking(writer, False)
+    usual = signal.set_wakeup_fd(writer, warn_on_full_buffer=False)
+    threading.Thread(target=_watch, args=(reader, over, last_word, leave), daemon=True).start()
+    try:
+        yield
+    finally:
+        with last_word:  # the other thread has it: the process is about to end
+            over.set()
+        signal.set_wakeup_fd(usual)
+        os.close(writer)
+
+
 def interruption_in(error: BaseException | None) -> int | None:
     """The signal behind ``error``, also where a C extension made an ImportError of it."""
     while error is not None and not isinstance(error, KeyboardInterrupt):
         error = error.__cause__ or error.__context__
     return None if error is None else int(getattr(error, "number", signal.SIGINT))
+
+
+def _watch(
+    reader: int,
+    over: threading.Event,
+    last_word: threading.Lock,
+    leave: Callable[[int], object],
+) -> None:
+    """Wait for a signal, whose number comes through the pipe, and then for the end of the block."""
+    with open(reader, "rb", buffering=0) as numbers:
+        while number := numbers.read(1):
+            if number[0] in SIGNALS and not over.wait(LONGEST):
+                with last_word:
+                    if not over.is_set():
+                        leave(number[0])
 
 
 def _must_end_first(frame: FrameType | None) -> bool:

@@ -21,11 +21,17 @@ def require_file(path: Path | None, suffix: str) -> None:
 
 
 def require_folder(path: Path) -> None:
-    """Refuse a file whose folder is missing, or that is a folder. Raises ``DesignError``."""
+    """Refuse a file that cannot be written, by trying it.
+
+    Raises ``DesignError`` if its folder is missing or it is a folder, else ``CannotWrite``.
+    """
+    from bellows_design.files.atomic import require_writable
+
     if not path.parent.is_dir():
         raise DesignError(f"there is no folder {quoted(str(path.parent))} to write to.")
     if path.is_dir():
         raise DesignError(f"{quoted(str(path))} is a folder, not a file to write.")
+    require_writable(path)
 
 
 def require_plot(path: Path | None) -> None:

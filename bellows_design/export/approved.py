@@ -1,8 +1,10 @@
 """The folder of an approved design.
 
 ``exports/NAME/`` holds ``NAME.stl``, ``NAME.3mf``, ``NAME.step`` and ``manifest.json``. The folder
-is written under a hidden name beside its place and renamed when it is complete: a reader finds all
-of it or nothing. The manifest states the design, the verdict's grounds and the hash of every file.
+is written under a hidden name beside its place, read back and compared, and renamed when it is
+complete: a reader finds all of it or nothing. The manifest states the design, the verdict's grounds
+and the hash of every file. Runs that export to one folder take turns: each finishes, or withdraws,
+a whole export before the next begins.
 
 A name has one current verdict. An export replaces the earlier one of its name, and a refusal
 withdraws it, so that an outdated approval is never taken for the current one. Nothing is lost: the
@@ -12,19 +14,30 @@ never a file or folder that someone else put there.
 
 from __future__ import annotations
 
+import errno
 import hashlib
 import json
 import os
 import shutil
-from collections.abc import Mapping
-from contextlib import suppress
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from bellows_design.errors import BellowsError, DesignError
-from bellows_design.export.formats import WRITERS, Part
-from bellows_design.files.atomic import open_to_readers, remove_leftovers, temporary_beside
-from bellows_design.files.json_files import write_json
+from bellows_design.export.formats import WRITERS
+from bellows_design.export.part import Part
+from bellows_design.export.read_back import require_same
+from bellows_design.files.atomic import (
+    at_work,
+    open_to_readers,
+    remove_leftovers,
+    require_writable,
+    temporary_beside,
+)
+from bellows_design.files.errors import CannotWrite
+from bellows_design.files.json_files import json_text
+from bellows_design.files.locks import locked
 from bellows_design.validation.quoting import quoted
 
 if TYPE_CHECKING:
@@ -32,6 +45,9 @@ if TYPE_CHECKING:
 
 MANIFEST = "manifest.json"
 MANIFEST_FORMAT = "bellows-design manifest 1"
+
+PATIENCE = 60.0
+"""s, for which a run waits for others that export to the same folder; each takes some two."""
 
 
 def export_approved(
@@ -44,33 +60,32 @@ def export_approved(
     Raises:
         BellowsError: The verdict is no approval.
         DesignError: The folder holds files that are not ours.
-        OSError: It cannot be written; then nothing has changed.
+        CannotWrite: It cannot be written, an ``OSError``; then nothing has changed.
     """
     if not verdict.approved:
         raise BellowsError(f"{part.name} is not approved and cannot be exported")
-    require_place(part.name, output_root)
     target = output_root / part.name
-    output_root.mkdir(parents=True, exist_ok=True)
-    remove_leftovers(target)
-    fresh = temporary_beside(target)
     try:
-        fresh.mkdir(mode=0o700)
-        _fill(fresh, part, verdict, grounds)
-        _swap(fresh, target)
-    finally:
-        shutil.rmtree(fresh, ignore_errors=True)
+        with _folder(output_root), locked(output_root, PATIENCE):
+            require_place(part.name, output_root)
+            _replace(target, part, verdict, grounds)
+    except OSError as error:
+        reason = error.strerror or str(error)
+        raise CannotWrite(target, f"{reason}; it is approved, but not exported") from error
     return target
 
 
 def require_place(name: str, output_root: Path) -> None:
-    """Raise ``DesignError`` if ``output_root/name`` may not be written or replaced.
+    """Refuse ``output_root/name`` if it may not, or cannot, be written or replaced.
 
-    Asked before the long computation that an export follows.
+    Asked before the long computation that an export follows. Raises ``DesignError`` if something
+    of others stands there, and ``CannotWrite`` if nothing can be written there.
     """
     _require_plain(name)
     if output_root.exists() and not output_root.is_dir():
         raise DesignError(f"{quoted(str(output_root))} is a file, not a folder for exports.")
     _require_ours(output_root / name)
+    require_writable(_nearest_folder(output_root) / name)
 
 
 def withdraw(name: str, output_root: Path) -> Path | None:
@@ -81,35 +96,86 @@ def withdraw(name: str, output_root: Path) -> Path | None:
     """
     _require_plain(name)
     folder = output_root / name
-    remove_leftovers(folder)
-    listed = _listed_files(folder)
-    if listed is None:
+    if not output_root.is_dir():
         return None
-    for name_of_file in (MANIFEST, *listed):
-        if (folder / name_of_file).is_file():
-            (folder / name_of_file).unlink()
-    with suppress(OSError):  # other people's files keep the folder
-        folder.rmdir()
+    with locked(output_root, PATIENCE):
+        remove_leftovers(output_root)
+        listed = _listed_files(folder)
+        if listed is None:
+            return None
+        for name_of_file in (MANIFEST, *listed):
+            if (folder / name_of_file).is_file():
+                (folder / name_of_file).unlink()
+        with suppress(OSError):  # other people's files keep the folder
+            folder.rmdir()
     return folder
 
 
-def _fill(folder: Path, part: Part, verdict: Verdict, grounds: Mapping[str, Any]) -> None:
+@contextmanager
+def _folder(place: Path) -> Iterator[None]:
+    """Within the block there is a folder ``place``; what is made of it goes if the block fails."""
+    missing = [each for each in (place, *place.parents) if not each.exists()]
+    try:
+        place.mkdir(parents=True, exist_ok=True)
+        yield
+    except BaseException:
+        for each in missing:
+            with suppress(OSError):
+                each.rmdir()
+        raise
+
+
+def _replace(target: Path, part: Part, verdict: Verdict, grounds: Mapping[str, Any]) -> None:
+    """Make the export under a hidden name, look at what came of it, and put it in place."""
+    remove_leftovers(target.parent)
+    with at_work(target) as fresh:
+        fresh.mkdir(mode=0o700)
+        with locked(fresh):
+            _require_written(fresh, part, _fill(fresh, part, verdict, grounds))
+            _swap(fresh, target)
+
+
+def _fill(
+    folder: Path, part: Part, verdict: Verdict, grounds: Mapping[str, Any]
+) -> dict[str, bytes]:
+    """Write all files; their contents by name."""
     open_to_readers(folder)
-    for suffix, write in WRITERS.items():
-        write(part, folder / f"{part.name}{suffix}")
+    files = {f"{part.name}{suffix}": write(part) for suffix, write in WRITERS.items()}
     manifest = {
         "format": MANIFEST_FORMAT,
         "name": part.name,
         "digest": part.digest,
         "verdict": verdict.to_dict(),
         **grounds,
-        "files": {file.name: _fingerprint(file) for file in sorted(folder.iterdir())},
+        "files": {name: _fingerprint(files[name]) for name in sorted(files)},
     }
-    write_json(manifest, folder / MANIFEST)
+    files[MANIFEST] = json_text(manifest).encode()
+    for name, content in files.items():
+        with (folder / name).open("xb") as file:
+            file.write(content)
+            file.flush()
+            os.fsync(file.fileno())
+    return files
 
 
-def _fingerprint(file: Path) -> dict[str, Any]:
-    content = file.read_bytes()
+def _require_written(folder: Path, part: Part, files: Mapping[str, bytes]) -> None:
+    """Raise ``CannotWrite`` unless ``folder`` holds just these ``files``, and they the part."""
+    present = {file.name for file in folder.iterdir()}
+    if present != set(files):
+        changed = ", ".join(sorted(present ^ set(files)))
+        raise OSError(errno.EIO, f"another program added or removed {changed}")
+    for name, content in files.items():
+        require_same(part, folder / name, content)
+
+
+def _nearest_folder(place: Path) -> Path:
+    """``place``, or the folder above it that is there and in which it would be made."""
+    while not place.exists() and place != place.parent:
+        place = place.parent
+    return place
+
+
+def _fingerprint(content: bytes) -> dict[str, Any]:
     return {"sha256": hashlib.sha256(content).hexdigest(), "bytes": len(content)}
 
 

@@ -1,52 +1,43 @@
-"""File formats of a part: one writer for each suffix.
+"""File formats of a part: one writer, and one reader that checks it, for each suffix.
 
 Lengths are millimetres in all of them. STL and 3MF hold the checked triangle mesh itself, STEP
-the exact solid. A new format is one more function and one more line in ``WRITERS``.
+the exact solid. All are made in memory: libraries that write files themselves know not every name
+that a file may have, and abort on a full disk. A new format is two functions, of which the second
+stands in ``read_back``, and one line in ``WRITERS``.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from io import BytesIO
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING
 
-from bellows_design.errors import DesignError
+from bellows_design.errors import BellowsError, DesignError
+from bellows_design.export.part import Part as Part
+from bellows_design.export.read_back import require_same
 from bellows_design.files.atomic import replacing
-from bellows_design.geometry.tessellation import ClosedMesh
 from bellows_design.validation.quoting import quoted
-
-if TYPE_CHECKING:
-    import cadquery as cq
 
 NAMESPACE = "https://bellows-design.example/2026/3mf"
 """Identifies our metadata in a 3MF file; a name, not an address."""
 
 
-@dataclass(frozen=True)
-class Part:
-    """A design's solid and mesh together with the labels its files carry."""
-
-    name: str
-    description: str
-    digest: str
-    solid: cq.Solid
-    mesh: ClosedMesh
-
-
-Writer = Callable[[Part, Path], None]
+Writer = Callable[[Part], bytes]
+"""Makes the content of a file."""
 
 
 def write_part(part: Part, path: Path | str) -> None:
     """Write ``part`` in the format of ``path``'s suffix, completely or not at all.
 
-    Raises ``DesignError`` for an unknown suffix and ``OSError`` if the file cannot be written.
+    What was written is read back and compared. Raises ``DesignError`` for an unknown suffix and
+    ``CannotWrite``, an ``OSError``, if the file cannot be written or does not hold the part.
     """
     path = Path(path)
-    writer = writer_for(path)
+    content = writer_for(path)(part)
     with replacing(path) as temporary:
-        writer(part, temporary)
+        temporary.write_bytes(content)
+        require_same(part, temporary, content)
 
 
 def writer_for(path: Path) -> Writer:
@@ -59,17 +50,17 @@ def writer_for(path: Path) -> Writer:
     return writer
 
 
-def _write_stl(part: Part, path: Path) -> None:
+def _stl(part: Part) -> bytes:
     """Binary STL; its 80-byte header names the design."""
     import trimesh
     from trimesh.exchange.stl import export_stl
 
     mesh = trimesh.Trimesh(part.mesh.vertices, part.mesh.triangles, process=False)
     header = f"bellows-design {part.name} {part.digest[:16]} mm".encode("ascii")[:80].ljust(80)
-    path.write_bytes(header + export_stl(mesh)[80:])
+    return header + export_stl(mesh)[80:]
 
 
-def _write_3mf(part: Part, path: Path) -> None:
+def _3mf(part: Part) -> bytes:
     import lib3mf
 
     wrapper = lib3mf.get_wrapper()
@@ -90,10 +81,10 @@ def _write_3mf(part: Part, path: Path) -> None:
         [lib3mf.Triangle((a, b, c)) for a, b, c in part.mesh.triangles.tolist()],
     )
     model.AddBuildItem(body, wrapper.GetIdentityTransform())
-    model.QueryWriter("3mf").WriteToFile(str(path))
+    return bytes(model.QueryWriter("3mf").WriteToBuffer())
 
 
-def _write_step(part: Part, path: Path) -> None:
+def _step(part: Part) -> bytes:
     from OCP.APIHeaderSection import APIHeaderSection_MakeHeader
     from OCP.IFSelect import IFSelect_ReturnStatus
     from OCP.Interface import Interface_Static
@@ -114,12 +105,11 @@ def _write_step(part: Part, path: Path) -> None:
     header.SetDescriptionValue(1, TCollection_HAsciiString(f"digest {part.digest}"))
     header.SetAuthorValue(1, TCollection_HAsciiString(""))
     header.SetOriginatingSystem(TCollection_HAsciiString("bellows-design"))
-    status = writer.Write(str(path))
-    if status != IFSelect_ReturnStatus.IFSelect_RetDone:
-        raise OSError(f"the CAD kernel could not write {path.name}")
+    content = BytesIO()
+    if writer.WriteStream(content) != IFSelect_ReturnStatus.IFSelect_RetDone:
+        raise BellowsError(f"the CAD kernel could not write {part.name} as STEP")
+    return content.getvalue()
 
 
-WRITERS: Mapping[str, Writer] = MappingProxyType(
-    {".stl": _write_stl, ".3mf": _write_3mf, ".step": _write_step}
-)
+WRITERS: Mapping[str, Writer] = MappingProxyType({".stl": _stl, ".3mf": _3mf, ".step": _step})
 """Suffix -> writer."""

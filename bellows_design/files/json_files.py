@@ -21,19 +21,28 @@ def write_json(content: Mapping[str, Any], path: Path) -> None:
         temporary.write_text(json_text(content), "utf-8")
 
 
-def json_text(content: Mapping[str, Any]) -> str:
-    """``content`` as JSON; numbers that are not finite, which JSON lacks, become null."""
-    return json.dumps(_finite(content), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+def json_text(content: Mapping[str, Any], only_ascii: bool = False) -> str:
+    """``content`` as JSON: numbers that are not finite, which JSON lacks, become null.
+
+    Bytes of a file's name that are no text become ``?``; ``only_ascii`` writes all other
+    characters beyond it as JSON's escapes.
+    """
+    plain = _plain(content)
+    return json.dumps(plain, indent=2, ensure_ascii=only_ascii, allow_nan=False) + "\n"
 
 
-def _finite(value: Any) -> Any:
+def _plain(value: Any) -> Any:
     if isinstance(value, Mapping):
-        return {str(key): _finite(inner) for key, inner in value.items()}
+        return {_text(key): _plain(inner) for key, inner in value.items()}
     if isinstance(value, list | tuple):
-        return [_finite(inner) for inner in value]
-    if isinstance(value, str | int | None):
+        return [_plain(inner) for inner in value]
+    if isinstance(value, int | None):
         return value
-    if isinstance(value, Path):
-        return str(value)
+    if isinstance(value, str | Path):
+        return _text(value)
     number = float(value)  # also NumPy's
     return number if math.isfinite(number) else None
+
+
+def _text(value: object) -> str:
+    return str(value).encode("utf-8", "replace").decode("utf-8")

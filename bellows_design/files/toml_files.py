@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import Any
 
 from bellows_design.errors import DesignError
+from bellows_design.files.guarded import decoded, read_file
 from bellows_design.validation.quoting import (
     did_you_mean,
     quoted,
@@ -30,7 +31,7 @@ from bellows_design.validation.quoting import (
 Table = dict[str, Any]
 
 LARGEST_FILE = 1_000_000
-"""Characters. Nothing meant to be read here is longer; a larger file was named by mistake."""
+"""Bytes. Nothing meant to be read here is longer; a larger file was named by mistake."""
 
 MOST_DOTS = 100
 """In a line, outside of quoted text: reading a key takes time as the square of its parts."""
@@ -136,18 +137,8 @@ def _toml_files(folder: Traversable) -> Iterator[tuple[str, Traversable]]:
 
 
 def _text(source: Path | Traversable, shown: str, noun: str) -> str:
-    subject = f"{noun} {quoted_path(shown)}"
-    try:
-        if source.is_dir():
-            raise DesignError(f"{quoted_path(shown)} is a folder, not a {noun} file.")
-        if not source.is_file():  # a pipe would be waited for
-            raise DesignError(f"there is no file {quoted_path(shown)}.")
-        with source.open(encoding="utf-8-sig") as file:  # some editors write a byte order mark
-            text: str = file.read(LARGEST_FILE + 1)
-    except OSError as error:
-        raise DesignError(f"{subject} cannot be read: {error.strerror}.") from None
-    except UnicodeDecodeError:
-        raise DesignError(f"{subject} is not a text file in UTF-8.") from None
-    if len(text) > LARGEST_FILE:
-        raise DesignError(f"{subject} is larger than 1 MB.")
-    return text
+    if isinstance(source, Path):
+        content = read_file(source, noun, LARGEST_FILE, shown)
+    else:  # a package in an archive
+        content = source.read_bytes()
+    return decoded(content, f"{noun} {quoted_path(shown)}")

@@ -10,9 +10,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numba import njit
 
 from printers.arrays import Flags, Floats, Ints
+from printers.compilation import njit
 
 LEAF_SIZE = 4
 BARYCENTRIC_SLACK = 1e-9

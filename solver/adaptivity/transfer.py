@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit, prange
+from numba import prange
 from numpy.typing import NDArray
 
 from solver.arrays import Integers, Reals
+from solver.compilation import njit
 from solver.mesh.elements import TETRAHEDRON_EDGES, quadratic_shapes
 from solver.mesh.mesh import Mesh
 from solver.results.solution import Solution

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import os
 import site
 import sys
 import weakref
@@ -25,6 +26,12 @@ PARDISO_PARAMETERS = {
     34: 2,  # the same bits in every run, whatever the threads do
     35: 1,  # indices start at 0
 }
+SINGULAR, NO_MEMORY, TOO_LARGE = (-4, -7), (-2, -9), (-8,)
+"""PARDISO's error numbers that say so; all others are faults of a call."""
+
+LP64, INTEL_THREADS = 0, 0
+"""MKL's numbers for interfaces with integers of 32 bits, and for its own threads."""
+
 TWO_LEVEL = 24
 LARGE = 60_000
 """Unknowns from which on the two-level parallel factorization repays its longer analysis."""
@@ -83,8 +90,18 @@ class Pardiso:
             pattern.indices, self._parameters, given, solution,
         )  # fmt: skip
         if error:
-            raise SingularMatrix(f"PARDISO failed with error {error} in phase {phase}")
+            raise _failure(error, phase)
         return solution
+
+
+def _failure(error: int, phase: int) -> Exception:
+    """What a number of PARDISO's means."""
+    if error in NO_MEMORY:
+        return MemoryError("PARDISO found no memory for the factors of the matrix")
+    if error in TOO_LARGE:
+        return MemoryError("the factors of the matrix are too large for PARDISO's 32-bit integers")
+    text = f"PARDISO failed with error {error} in phase {phase}"
+    return SingularMatrix(text) if error in SINGULAR else RuntimeError(text)
 
 
 def _load_mkl() -> ctypes.CDLL:
@@ -97,10 +114,25 @@ def _load_mkl() -> ctypes.CDLL:
     found = [str(path) for root in roots for glob in patterns for path in sorted(root.glob(glob))]
     for name in (*found, "libmkl_rt.so", "mkl_rt.dll"):
         try:
-            return ctypes.CDLL(name)
+            library = ctypes.CDLL(name)
         except OSError:
             continue
+        return _with_our_interface(library)
     raise ImportError("MKL (mkl_rt) cannot be loaded; install the package mkl.")
+
+
+def _with_our_interface(library: ctypes.CDLL) -> ctypes.CDLL:
+    """``library``, set to integers of 32 bits and to threads that come with it.
+
+    Variables of the environment that another program needs (``MKL_INTERFACE_LAYER``,
+    ``MKL_THREADING_LAYER``) choose layers that read our integers wrongly or are not installed,
+    which ends the process. Raises ``ImportError`` where another interface is in use already.
+    """
+    if library.MKL_Set_Interface_Layer(LP64) != LP64:
+        raise ImportError("MKL is in use already with an interface that is not LP64.")
+    if os.environ.get("MKL_THREADING_LAYER", "INTEL").upper() != "SEQUENTIAL":
+        library.MKL_Set_Threading_Layer(INTEL_THREADS)
+    return library
 
 
 def _pardiso(

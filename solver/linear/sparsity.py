@@ -8,10 +8,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numba import njit, prange
+from numba import prange
 from numpy.typing import NDArray
 
 from solver.arrays import Integers
+from solver.compilation import njit
 from solver.errors import SolverError
 
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from solver.arrays import Integers
+from solver.compilation import njit
 
 
 @njit(cache=True)

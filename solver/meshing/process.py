@@ -16,6 +16,7 @@ import tempfile
 import threading
 import time
 import weakref
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from functools import cache
 from io import FileIO
@@ -23,6 +24,7 @@ from pathlib import Path
 from queue import Empty, SimpleQueue
 from typing import IO, cast
 
+from solver.meshing.limits import cause_of_end
 from solver.meshing.messages import Message, receive, send
 
 DEFAULT_SECONDS = 120.0
@@ -40,7 +42,15 @@ class MesherTimeout(Exception):
 
 
 class MesherCrash(Exception):
-    """The process ended by itself; the message says how."""
+    """The process ended by itself; the message says how.
+
+    Attributes:
+        cause: A sentence on what ended it if that was not the solid; None if it may have been.
+    """
+
+    def __init__(self, how: str, cause: str | None = None) -> None:
+        super().__init__(how)
+        self.cause = cause
 
 
 def start() -> None:
@@ -54,6 +64,11 @@ def ask(job: Message, seconds: float) -> Message:
     Raises ``MesherTimeout`` after ``seconds`` and ``MesherCrash``; the next job gets a new process.
     """
     return _mesher(os.getpid()).ask(job, seconds)
+
+
+def kill() -> None:
+    """Kill the process and remove its folder: this program ends at once, by any of its threads."""
+    _mesher(os.getpid()).kill()
 
 
 @cache
@@ -85,6 +100,11 @@ class _Mesher:
                 process.end()
                 raise
 
+    def kill(self) -> None:
+        process = self._process  # another thread, which waits for an answer, has the lock
+        if process is not None:
+            process.kill()
+
     def _running(self) -> _Process:
         if self._process is None or not self._process.alive:
             if self._process is not None:
@@ -98,7 +118,11 @@ class _Process:
 
     def __init__(self) -> None:
         self._folder = Path(tempfile.mkdtemp(prefix="solver-mesher-"))
-        self._process = _launched(self._folder)
+        try:
+            self._process = _launched(self._folder)
+        except BaseException:
+            shutil.rmtree(self._folder, ignore_errors=True)
+            raise
         self._requests = cast(FileIO, self._process.stdin)
         self._answers: SimpleQueue[Message | None] = SimpleQueue()
         listener = threading.Thread(
@@ -115,13 +139,19 @@ class _Process:
     def alive(self) -> bool:
         return self._process.poll() is None
 
+    def kill(self) -> None:
+        self._process.kill()
+        self._process.wait()
+        shutil.rmtree(self._folder, ignore_errors=True)
+
     def ask(self, job: Message, seconds: float) -> Message:
         deadline = time.monotonic() + seconds
         with suppress(OSError):  # it ended before it had read all, and so ends the queue of answers
             send(self._requests, job)
         answer = self._awaited(deadline)
         if answer is None:
-            raise MesherCrash(self._exit_description())
+            how = self._exit_description()
+            raise MesherCrash(how, cause_of_end(how))
         return answer
 
     def _awaited(self, deadline: float) -> Message | None:
@@ -146,7 +176,7 @@ class _Process:
 
 def _launched(folder: Path) -> subprocess.Popen[bytes]:
     """A process in a session of its own, with the module search path of this one."""
-    places = os.pathsep.join(os.path.abspath(place) for place in sys.path)
+    places = os.pathsep.join(_absolute(sys.path))
     with (folder / "stderr.txt").open("wb") as errors:
         return subprocess.Popen(
             # -P: nothing from the current folder, which may hold a file of any name
@@ -155,10 +185,22 @@ def _launched(folder: Path) -> subprocess.Popen[bytes]:
             stdout=subprocess.PIPE,
             stderr=errors,
             bufsize=0,
-            env={**os.environ, "PYTHONPATH": places, "OPENBLAS_NUM_THREADS": "1"},
+            env={**_environment(), "PYTHONPATH": places, "OPENBLAS_NUM_THREADS": "1"},
             start_new_session=True,
             creationflags=getattr(subprocess, "CREATE_NEW_PROCESS_GROUP", 0),
         )
+
+
+def _environment() -> dict[str, str]:
+    """This process's; warnings of Gmsh's libraries are no reason to stop."""
+    return {name: value for name, value in os.environ.items() if name != "PYTHONWARNINGS"}
+
+
+def _absolute(places: Sequence[str]) -> Iterator[str]:
+    """Absolute paths; relative ones lead nowhere once the working folder was deleted."""
+    for place in places:
+        with suppress(FileNotFoundError):
+            yield os.path.abspath(place)
 
 
 def _queue_answers(stream: IO[bytes], answers: SimpleQueue[Message | None]) -> None:

@@ -124,6 +124,8 @@ def _from_gmsh(
             "time, or change the design's thinnest walls and smallest fillets"
         ) from None
     except MesherCrash as crash:
+        if crash.cause is not None:
+            raise MeshingError(crash.cause) from None
         raise MeshingError(f"Gmsh crashed on this solid ({crash}); try other numbers") from None
     return _accepted(answer, faces)
 

@@ -26,13 +26,16 @@ STDIN, STDOUT, STDERR = 0, 1, 2
 def main() -> None:
     """Answer jobs until stdin ends."""
     folder = Path(sys.argv[1])
-    os.environ["HOME"] = os.environ["APPDATA"] = str(folder)  # Gmsh's FLTK leaves settings there
+    for name in ("HOME", "APPDATA", "TMPDIR"):  # Gmsh's FLTK and other libraries leave files there
+        os.environ[name] = str(folder)
     answers = FileIO(os.dup(STDOUT), "wb")
     os.dup2(STDERR, STDOUT)  # keeps what C code prints out of the answers
     jobs: SimpleQueue[Any] = SimpleQueue()
     threading.Thread(target=_watch, args=(folder, jobs), daemon=True).start()
+    from solver.meshing.limits import allow_stack
     from solver.meshing.messages import send
 
+    allow_stack()
     failure = _load_gmsh()
     while True:
         send(answers, _answer(jobs.get(), folder, failure))
@@ -73,15 +76,27 @@ def _answer(job: Any, folder: Path, failure: dict[str, str] | None) -> Any:
 
     if failure is not None:
         return Message(failure)
-    brep = folder / "solid.brep"
-    brep.write_bytes(job.arrays["brep"].tobytes())
+    brep = _named_for_gmsh(folder, "solid.brep")
     try:
+        brep.write_bytes(job.arrays["brep"].tobytes())
         arrays = meshed(brep, job.values["faces"], job.values["settings"], job.arrays["field"])
     except Refusal as refusal:
         return Message({"refused": str(refusal)})
     except OtherFaces as others:
         return Message({"faces": others.count})
+    except OSError as error:
+        return Message({"refused": f"Gmsh cannot use its temporary folder: {error.strerror}"})
     return Message({}, arrays)
+
+
+def _named_for_gmsh(folder: Path, name: str) -> Path:
+    """A path of the file in ``folder``; Gmsh takes text in UTF-8 only, which bytes may not be."""
+    try:
+        str(folder).encode("utf-8")
+    except UnicodeEncodeError:
+        os.chdir(folder)
+        return Path(name)
+    return folder / name
 
 
 if __name__ == "__main__":

@@ -2,8 +2,9 @@
 
 numba's own cache depends on the file of a function alone. Functions of other files are compiled
 into it, and changes of those would be missed. So compiled functions that call each other across
-files are cached in a folder whose name is a hash of all these files. A function that calls compiled
-functions of its own file only may use ``numba.njit`` itself.
+files are cached in a folder whose name is a hash of all these
+files. A function that calls compiled functions of its own file only may use
+``solver.compilation.njit`` itself.
 """
 
 from __future__ import annotations
@@ -17,7 +18,9 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any, TypeVar
 
-from numba import config, njit
+from numba import config
+
+from solver.compilation import njit
 
 settings: Any = config
 Function = TypeVar("Function", bound=Callable[..., Any])

@@ -60,3 +60,12 @@ def test_on_windows_the_peak_is_that_of_the_working_set(monkeypatch: pytest.Monk
     monkeypatch.setattr(sys, "platform", "win32")
     monkeypatch.setattr(psutil, "Process", lambda: process)
     assert peak_memory_mib() == 3.0
+
+
+def test_a_limit_of_the_address_space_counts_as_memory(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The libraries take more addresses than memory."""
+    monkeypatch.setattr(machine, "address_space_gib", lambda: 2.0)
+    assert memory_gib() == pytest.approx(2.0 - machine.ADDRESSES_OF_LIBRARIES)
+    memory_gib.cache_clear()
+    monkeypatch.setattr(machine, "address_space_gib", lambda: 1.0)
+    assert memory_gib() == 0.0

@@ -255,7 +255,7 @@ def test_the_hencky_limit_alpha_zero_is_a_material() -> None:
         ("a\0b.toml", "a?b.toml"),
         ("x" * 5000 + ".toml", "cannot be read"),
         (".", "is a folder"),
-        ("/dev/null", "there is no file"),
+        ("/dev/null", "is a device"),
     ],
 )
 def test_what_is_no_design_file_is_refused_in_one_sentence(given: str, words: str) -> None:

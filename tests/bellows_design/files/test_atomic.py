@@ -56,7 +56,7 @@ def test_the_leftovers_of_others_stay(tmp_path: Path) -> None:
     gone = running.with_name(running.name.replace(session, "0" * 8))  # an earlier one, same number
     for path in (*kept, gone):
         path.touch()
-    remove_leftovers(target)
+    remove_leftovers(tmp_path)
     assert set(tmp_path.iterdir()) == set(kept)
 
 
@@ -96,6 +96,6 @@ def test_a_link_among_the_leftovers_is_removed_and_not_followed(
     target = tmp_path / "out"
     temporary_beside(target).symlink_to(tmp_path / "precious")
     monkeypatch.setattr(atomic, "_is_left_over", lambda _: True)
-    remove_leftovers(target)
+    remove_leftovers(tmp_path)
     assert [path.name for path in tmp_path.iterdir()] == ["precious"]
     assert (tmp_path / "precious" / "thesis").exists()

@@ -6,6 +6,7 @@ import os
 import signal
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 from collections.abc import Callable
@@ -94,12 +95,20 @@ def test_a_limit_that_is_none_is_refused(seconds: float) -> None:
 
 
 @POSIX
-@pytest.mark.parametrize("number", [signal.SIGSEGV, signal.SIGKILL])
-def test_a_crash_of_gmsh_is_a_sentence_and_the_next_mesh_is_made(number: signal.Signals) -> None:
+@pytest.mark.parametrize(
+    ("number", "words"),
+    [
+        (signal.SIGSEGV, r"Gmsh crashed on this solid \(SIGSEGV"),
+        (signal.SIGKILL, r"stopped for want of memory \(SIGKILL"),  # as the kernel does it
+    ],
+)
+def test_a_crash_of_gmsh_is_a_sentence_and_the_next_mesh_is_made(
+    number: signal.Signals, words: str
+) -> None:
     meshed_ball()
     crash = threading.Timer(0.3, os.kill, (process_id(), number))
     crash.start()
-    with pytest.raises(MeshingError, match=f"Gmsh crashed on this solid .{number.name}"):
+    with pytest.raises(MeshingError, match=words):
         meshed_ball(HUGE)
     assert len(meshed_ball().tets) > 0
 
@@ -230,3 +239,44 @@ def test_a_message_cut_short_is_none() -> None:
     send(stream, Message({"a": 1}, {"b": np.arange(9.0)}))  # type: ignore[arg-type]
     for size in range(len(stream.getvalue())):
         assert receive(BytesIO(stream.getvalue()[:size])) is None  # type: ignore[arg-type]
+
+
+DELETED = """
+import os, sys, tempfile
+from pathlib import Path
+from solver.meshing import mesh_solid
+tempfile.tempdir = sys.argv[1]
+content = Path(sys.argv[2]).read_bytes()
+os.rmdir(os.getcwd())
+sys.path.append("relative")
+print(len(mesh_solid(content, ["skin"]).tets) > 0, end="")
+"""
+
+
+@POSIX
+@pytest.mark.parametrize("name", ["temporary", os.fsdecode(b"\xff")])
+def test_neither_a_deleted_working_folder_nor_a_strange_temporary_one_matters(
+    name: str, tmp_path: Path
+) -> None:
+    for folder in ("gone", name):
+        (tmp_path / folder).mkdir()
+    (tmp_path / "ball.brep").write_bytes(ball())
+    done = subprocess.run(
+        [sys.executable, "-c", DELETED, str(tmp_path / name), str(tmp_path / "ball.brep")],
+        cwd=tmp_path / "gone",
+        env={**os.environ, "PYTHONPATH": str(ROOT), "PYTHONWARNINGS": "error::SyntaxWarning"},
+        capture_output=True,
+        encoding="utf-8",
+    )
+    assert (done.stdout, done.returncode) == ("True", 0), done.stderr
+    assert list((tmp_path / name).iterdir()) == []
+
+
+def test_a_mesher_that_cannot_be_started_leaves_no_folder(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    monkeypatch.setattr(meshing_process, "_launched", lambda _: [][0])
+    with pytest.raises(IndexError):
+        meshing_process._Process()
+    assert list(tmp_path.iterdir()) == []

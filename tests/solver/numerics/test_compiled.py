@@ -13,6 +13,7 @@ from pathlib import Path
 import pytest
 from numba import config
 
+from solver import compilation
 from solver.numerics import compiled as cache
 
 ROOT = Path(__file__).parents[3]
@@ -48,6 +49,7 @@ def package(tmp_path: Path) -> Path:
         folder.mkdir()
         (folder / "__init__.py").touch()
     shutil.copy(cache.__file__, solver / "numerics")
+    shutil.copy(compilation.__file__, solver)
     for name, code in TWO_FILES.items():
         (solver / name).write_text(code)
     return solver

@@ -7,7 +7,7 @@ import re
 from pathlib import Path
 
 from bellows_design.errors import DesignError
-from bellows_design.validation.quoting import quoted_path
+from bellows_design.files.guarded import read_file
 
 LARGEST_FILE = 20_000_000
 """Bytes."""
@@ -26,20 +26,7 @@ _LEGACY = "cp1252"
 
 def content_of(path: Path) -> bytes:
     """All bytes of the file. Raises ``DesignError``."""
-    given = quoted_path(path)
-    try:
-        if path.is_dir():
-            raise DesignError(f"{given} is a folder, not a file of measurements.")
-        if not path.is_file():
-            raise DesignError(f"there is no file {given}.")
-        if path.stat().st_size > LARGEST_FILE:
-            raise DesignError(f"{given} has {path.stat().st_size} bytes; at most 20 MB are read.")
-        with path.open("rb") as file:
-            return file.read(LARGEST_FILE)
-    except (OSError, ValueError) as error:  # ValueError: a null byte in the path
-        if isinstance(error, DesignError):
-            raise
-        raise DesignError(f"cannot read {given}: {getattr(error, 'strerror', error)}.") from None
+    return read_file(path, "measurements", LARGEST_FILE)
 
 
 def decoded(content: bytes, place: str) -> tuple[str, str | None]:

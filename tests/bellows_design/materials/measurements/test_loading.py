@@ -126,7 +126,7 @@ def test_what_is_not_understood_is_refused_in_one_sentence(
         (b"\xff\xfe\x00stretch,", "not a text file"),
         (b"stretch,stress_mpa\n1\x00,2\n", "null character"),
         (bytes(range(256)) * 50, "not a text file"),
-        (b"#" * 20_000_001, "at most 20 MB are read"),
+        (b"#" * 20_000_001, "is larger than 20 MB"),
         (b"stretch,stress_mpa\n" + b"1.5,1\n" * 100_001, "more than 100000 points"),
     ],
 )

@@ -1,0 +1,107 @@
+"""What stands on the disk is compared with the part before it is an export."""
+
+from __future__ import annotations
+
+import io
+import zipfile
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from bellows_design.approval import Verdict
+from bellows_design.export import approved
+from bellows_design.export.approved import export_approved
+from bellows_design.export.formats import WRITERS, Part
+from bellows_design.export.read_back import READERS, NotThePart
+from bellows_design.files.errors import CannotWrite
+from bellows_design.geometry.tessellation import ClosedMesh
+
+APPROVED = Verdict(())
+
+
+@pytest.mark.parametrize("suffix", WRITERS)
+def test_every_format_can_be_read_back(suffix: str, cube_part: Part) -> None:
+    READERS[suffix](cube_part, WRITERS[suffix](cube_part))
+
+
+def other_parts(part: Part) -> list[Part]:
+    """The part with a vertex moved, with a triangle gone, and turned inside out."""
+    vertices, triangles = part.mesh.vertices, part.mesh.triangles
+    moved = np.where(np.arange(len(vertices))[:, None] == 3, vertices + 0.001, vertices)
+    moved = moved.astype(np.float32).astype(np.float64)
+    meshes = (
+        ClosedMesh(moved, triangles),
+        ClosedMesh(vertices, triangles[1:]),
+        ClosedMesh(vertices, triangles[:, ::-1]),
+    )
+    return [replace(part, mesh=mesh) for mesh in meshes]
+
+
+@pytest.mark.parametrize("suffix", [".stl", ".3mf"])
+@pytest.mark.parametrize("number", range(3))
+def test_another_mesh_is_noticed(suffix: str, number: int, cube_part: Part) -> None:
+    with pytest.raises(NotThePart):
+        READERS[suffix](cube_part, WRITERS[suffix](other_parts(cube_part)[number]))
+
+
+def test_another_solid_is_noticed(cube_part: Part) -> None:
+    import cadquery as cq
+
+    larger = replace(cube_part, solid=cq.Solid.makeBox(10, 10, 10.0001))
+    with pytest.raises(NotThePart, match="another volume"):
+        READERS[".step"](cube_part, WRITERS[".step"](larger))
+
+
+def without_its_model(content: bytes) -> bytes:
+    file = io.BytesIO()
+    with zipfile.ZipFile(file, "w"):
+        return file.getvalue()
+
+
+@pytest.mark.parametrize("suffix", WRITERS)
+@pytest.mark.parametrize(
+    "damage",
+    [
+        lambda content: content[: len(content) // 2],
+        lambda content: b"",
+        without_its_model,
+    ],
+    ids=["half", "empty", "without a model"],
+)
+def test_damaged_content_is_noticed(
+    suffix: str, damage: Callable[[bytes], bytes], cube_part: Part
+) -> None:
+    with pytest.raises(NotThePart):
+        READERS[suffix](cube_part, damage(WRITERS[suffix](cube_part)))
+
+
+@pytest.mark.parametrize("harm", ["changed", "deleted", "added", "manifest"])
+def test_what_others_do_to_the_hidden_folder_is_no_approval(
+    harm: str, cube_part: Part, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    export_approved(cube_part, APPROVED, {"run": 1}, tmp_path)
+    before = {path.name: path.read_bytes() for path in (tmp_path / "cube").iterdir()}
+    fill = approved._fill
+
+    def harmed(folder: Path, *arguments: object) -> dict[str, bytes]:
+        files = fill(folder, *arguments)  # type: ignore[arg-type]
+        if harm == "changed":
+            content = bytearray((folder / "cube.stl").read_bytes())
+            content[-20] ^= 1
+            (folder / "cube.stl").write_bytes(content)
+        elif harm == "deleted":
+            (folder / "cube.step").unlink()
+        elif harm == "added":
+            (folder / "virus").touch()
+        else:
+            (folder / "manifest.json").write_text("{}")
+        return files
+
+    monkeypatch.setattr(approved, "_fill", harmed)
+    with pytest.raises(CannotWrite, match="it is approved, but not exported"):
+        export_approved(cube_part, APPROVED, {"run": 2}, tmp_path)
+    assert {path.name: path.read_bytes() for path in (tmp_path / "cube").iterdir()} == before
+    assert [path.name for path in tmp_path.iterdir()] == ["cube"]
