@@ -8,11 +8,11 @@ import sys
 from pathlib import Path
 
 import pytest
-from bellows_design.materials.fitting.measurements import load_measurements
 
 from bellows_design.design import load_design
 from bellows_design.errors import DesignError
 from bellows_design.files.guarded import PIECE, decoded, read_file
+from bellows_design.materials import load_measurements
 from printers import PrintersError, load_profile
 
 POSIX = pytest.mark.skipif(sys.platform == "win32", reason="devices of POSIX")
