@@ -11,6 +11,9 @@ LEAST_ANGLE_ERROR, LEAST_STRESS_ERROR = 0.005, 0.02
 """Fractions of angle and stress that no estimate falls below: two meshes can agree by chance, and
 the bubbles next to the ends are stressed a little more (4 % on Prototype 1)."""
 
+FEW_MESHES = {2: 0.07, 3: 0.035}
+"""The same for the stress as long as there are only so many meshes."""
+
 ENDS_ERROR = 0.15
 """Fraction of what the ends add that is uncertain: a short actuator of two bubbles instead of one
 moves it by that much."""
@@ -24,7 +27,7 @@ ENDS_STRESS_ERROR = ENDS_NOISE - 1
 """Fraction of the highest stress that is uncertain where that is in the ends, on a coarse mesh."""
 
 TWO_MESHES = 2.0
-"""Factor on the angle's error as long as there are only two meshes: the first is very coarse."""
+"""Factor on both differences as long as there are only two meshes: the first is very coarse."""
 
 
 @dataclass(frozen=True)
@@ -52,9 +55,12 @@ def _angle_error(computation: Computation) -> float | None:
         reading(computation, solution.path[-1]).bending_angle_deg
         for solution in computation.solutions[-2:]
     )
-    careful = TWO_MESHES if len(computation.solved) == 2 else 1.0
-    error = careful * max(abs(fine - coarse), LEAST_ANGLE_ERROR * abs(fine))
+    error = _care(computation) * max(abs(fine - coarse), LEAST_ANGLE_ERROR * abs(fine))
     return _percent(error + _ends_error(computation), fine)
+
+
+def _care(computation: Computation) -> float:
+    return TWO_MESHES if len(computation.solved) == 2 else 1.0
 
 
 def _ends_error(computation: Computation) -> float:
@@ -70,8 +76,9 @@ def _ends_error(computation: Computation) -> float:
 def _stress_error(computation: Computation) -> float | None:
     """Half of the difference, or how much the elements around the peak disagree if that is more."""
     coarse, fine = computation.peaks[-2:]
-    difference = abs(coarse.value - fine.value) / 2
-    error = max(difference, fine.scatter, LEAST_STRESS_ERROR * fine.value)
+    difference = _care(computation) * abs(coarse.value - fine.value) / 2
+    least = FEW_MESHES.get(len(computation.solved), LEAST_STRESS_ERROR)
+    error = max(difference, fine.scatter, least * fine.value)
     if ends_factor(computation) > 1:
         error += ENDS_STRESS_ERROR * fine.value
     return _percent(error, fine.value)
