@@ -144,12 +144,26 @@ def check_dict(design: Design, report: PrintabilityReport) -> dict[str, Any]:
 
 def _settled(found: Outcome, part: Part, output_root: Path) -> Outcome:
     """The outcome once an approved part is exported, or an earlier export of it withdrawn."""
-    from bellows_design.export.approved import export_approved, withdraw
+    from bellows_design.export.approved import export_approved
 
     if not found.verdict.approved:
-        return replace(found, withdrawn=withdraw(found.design.name, output_root))
+        return replace(found, withdrawn=_withdrawn(found, output_root))
     folder = export_approved(part, found.verdict, _grounds(found), output_root)
     return replace(found, folder=folder)
+
+
+def _withdrawn(found: Outcome, output_root: Path) -> Path | None:
+    """The earlier export of a refused design, removed. Raises ``CannotWrite`` if it cannot be."""
+    from bellows_design.export.approved import withdraw
+    from bellows_design.files.errors import CannotWrite
+
+    name = found.design.name
+    try:
+        return withdraw(name, output_root)
+    except OSError as error:
+        rules = ", ".join(dict.fromkeys(reason.rule for reason in found.verdict.reasons))
+        why = f"{error.strerror or error}; it is refused ({rules}), but its earlier export remains"
+        raise CannotWrite(output_root / name, why) from error
 
 
 def _grounds(found: Outcome) -> dict[str, Any]:

@@ -14,6 +14,7 @@ import trimesh
 from fakes import FakeEstimate, FakeEvaluation
 
 from bellows_design import load_design, with_overrides
+from bellows_design.files.errors import CannotWrite
 from bellows_design.pipeline import run
 
 TWO_BUBBLES = ("length=18", "number_of_bubbles=2")
@@ -62,6 +63,18 @@ def test_an_open_verdict_asks_for_a_finer_mesh_and_is_decided_again(
     assert run(load_design("prototype_2"), tmp_path).verdict.approved
     question = "3.800 MPa are too near to the limit of 4 MPa for their estimated error"
     assert asked == [question, ""]
+
+
+def test_a_refusal_is_told_though_the_earlier_export_cannot_be_removed(
+    stub_stages: Callable[..., None], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(*_: Any) -> None:
+        raise PermissionError(13, "Permission denied")
+
+    stub_stages(FakeEvaluation(max_von_mises_mpa=9.0))
+    monkeypatch.setattr("bellows_design.export.approved.withdraw", fail)
+    with pytest.raises(CannotWrite, match=r"denied; it is refused \(max_von_mises\), but its"):
+        run(load_design("prototype_2"), tmp_path)
 
 
 @pytest.mark.slow
