@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import json
+from collections.abc import Callable
 from functools import cache
+from pathlib import Path
 
 import pytest
 
@@ -59,6 +62,39 @@ def test_a_boss_of_another_thickness_than_declared_is_found() -> None:
     for wall in (1.2, 1.6):
         (rule,) = port_rules(built, mesh, wall)
         assert (rule.verdict, rule.measured) == ("fail", pytest.approx(2, abs=0.02))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("wall", "depth", "status", "verdict"),
+    [("2", "2", 0, "pass"), ("1.2", "8", 0, "pass"), ("0.8", "2", 1, "fail")],
+)
+def test_the_command_judges_the_boss_by_itself(
+    bellows: Callable[..., tuple[int, str, str]], wall: str, depth: str, status: int, verdict: str
+) -> None:
+    settings = ("--set", f"port.wall={wall}", "--set", f"port.depth={depth}")
+    found, output, _ = bellows("check", "finger", *settings, "--json")
+    assert found == status
+    rules = [rule for rule in json.loads(output)["rules"] if rule["where"] == "port.wall"]
+    sealing = {rule["verdict"] for rule in rules if rule["rule"] == "minimum_lines"}
+    assert sealing == {verdict}
+    (measured,) = (r["measured"] for r in rules if r["rule"] == "wall_as_declared")
+    assert measured == pytest.approx(float(wall), abs=0.02)
+
+
+def test_the_command_takes_no_true_for_a_number_of_a_printer(
+    bellows: Callable[..., tuple[int, str, str]], tmp_path: Path
+) -> None:
+    printer = tmp_path / "printer.toml"
+    bellows("init", "printer", str(printer))
+    text = printer.read_text("utf-8")
+    assert "\nperimeters = " in text
+    lines = [
+        "perimeters = true" if line.startswith("perimeters") else line for line in text.splitlines()
+    ]
+    printer.write_text("\n".join(lines), "utf-8")
+    status, _, errors = bellows("check", "finger", "--printer", str(printer))
+    assert status == 2 and "perimeters is true" in errors
 
 
 def port_rules(built: Design, mesh: object, wall: float) -> list:  # type: ignore[type-arg]
