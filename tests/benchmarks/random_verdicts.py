@@ -21,6 +21,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from random_designs import RANGES
 
 from bellows_design.analysis.evaluate import evaluate, loaded_state
 from bellows_design.analysis.evaluation import Evaluation, LoadedState
@@ -35,17 +36,7 @@ from printers import PrintabilityReport, RuleResult
 from solver.errors import MeshingError
 
 SEED = 20261126
-RANGES = {
-    "bubble_width": (10, 26),
-    "bubble_height": (10, 26),
-    "bubble_thickness": (0.8, 2.4),
-    "tendon_width": (5, 16),
-    "tendon_height": (3.5, 8),
-    "tendon_thickness": (0.8, 2.4),
-    "chamber_length": (1.0, 4.0),
-    "inner_fillet": (0.2, 1.2),
-    "outer_fillet": (0.3, 2.5),
-}
+NUMBERS = {name: span for name, span in RANGES.items() if name != "bubble_distance"}
 GAPS, NARROW = (0.8, 3.0), (0.4, 0.8)
 LOADS = (0.005, 0.045)
 """Pressure over initial shear modulus: 0.02 to 0.15 MPa of NinjaFlex."""
@@ -71,7 +62,7 @@ def drawn(count: int) -> list[Design]:
 def _draw(generator: np.random.Generator, name: str) -> Design | None:
     """One draw; None if the numbers describe no solid."""
     numbers: dict[str, Any] = {
-        key: round(generator.uniform(*span), 2) for key, span in RANGES.items()
+        key: round(generator.uniform(*span), 2) for key, span in NUMBERS.items()
     }
     gap = round(generator.uniform(*(NARROW if generator.random() < 0.25 else GAPS)), 2)
     count = int(generator.choice([1, 2]) if generator.random() < 0.1 else generator.integers(3, 13))
