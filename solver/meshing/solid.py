@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -71,6 +71,15 @@ class MeshOptions:
                 "and 100."
             )
 
+    def scaled(self, factor: float) -> MeshOptions:
+        """The same with all sizes multiplied by a factor."""
+        if factor == 1.0:
+            return self
+        field = None if self.field is None else replace(self.field, sizes=factor * self.field.sizes)
+        return replace(
+            self, size=factor * self.size, smallest_size=factor * self.smallest_size, field=field
+        )
+
 
 def mesh_solid(
     brep: Path | bytes,
@@ -100,12 +109,22 @@ def mesh_solid(
     if not 0 < seconds < np.inf:
         raise SolverError(f"mesh: seconds = {seconds:g} must be finite and above 0.")
     content = brep if isinstance(brep, bytes) else brep.read_bytes()
-    arrays = _from_gmsh(content, len(face_names), options or MeshOptions(), seconds)
-    tets = arrays["tets"]
-    nodes = relaxed(arrays["nodes"], tets)
-    _check_quality(nodes, tets)
+    for factor in SIZES_TRIED:
+        smaller = (options or MeshOptions()).scaled(factor)
+        arrays = _from_gmsh(content, len(face_names), smaller, seconds)
+        tets = arrays["tets"]
+        nodes = relaxed(arrays["nodes"], tets)
+        folded = _folded_element(nodes, tets)
+        if not folded:
+            break
+    else:
+        raise MeshingError(folded)
     corners = np.split(arrays["corners"], np.cumsum(arrays["counts"])[:-1])
     return Mesh(nodes, tets, _named_surfaces(tets, corners, face_names))
+
+
+SIZES_TRIED = (1.0, 0.93, 0.87)
+"""Factors on the sizes wanted, until no element is folded: that is a matter of chance."""
 
 
 def _from_gmsh(
@@ -181,13 +200,14 @@ def _faces_of(tets: NDArray[np.int32]) -> NDArray[np.int32]:
     return np.concatenate([tets[:, column] for column in columns])
 
 
-def _check_quality(nodes: NDArray[np.float64], tets: NDArray[np.int32]) -> None:
-    """Raise ``MeshingError`` for folded elements, with the position of the worst."""
+def _folded_element(nodes: NDArray[np.float64], tets: NDArray[np.int32]) -> str:
+    """A sentence on folded elements, with the position of the worst; empty without any."""
     ratios = jacobian_ratios(nodes, tets)
     worst = int(ratios.argmin())
-    if ratios[worst] < SMALLEST_RATIO:
-        x, y, z = nodes[tets[worst, :4]].mean(axis=0)
-        raise MeshingError(
-            f"the mesh has a folded element (Jacobian ratio {ratios[worst]:.2g}) near "
-            f"({x:.2f}, {y:.2f}, {z:.2f}) mm; try another mesh size"
-        )
+    if ratios[worst] >= SMALLEST_RATIO:
+        return ""
+    x, y, z = nodes[tets[worst, :4]].mean(axis=0)
+    return (
+        f"every mesh has a folded element (Jacobian ratio {ratios[worst]:.2g}), the last one near "
+        f"({x:.2f}, {y:.2f}, {z:.2f}) mm; change the walls or fillets there a little"
+    )

@@ -15,6 +15,7 @@ from solver import Mesh
 from solver.errors import MeshingError
 from solver.mesh.elements import triangle_rule
 from solver.mesh.mid_nodes import SMALLEST_RATIO, jacobian_ratios
+from solver.meshing import solid
 from solver.meshing.solid import MeshOptions, mesh_solid
 
 Array = NDArray[np.float64]
@@ -133,6 +134,26 @@ def test_middle_nodes_lie_on_the_curved_faces(block: Mesh) -> None:
 def test_no_element_is_folded_and_every_node_is_used(block: Mesh) -> None:
     assert jacobian_ratios(block.nodes, block.tets).min() >= SMALLEST_RATIO
     assert np.array_equal(np.unique(block.tets), np.arange(len(block.nodes)))
+
+
+@pytest.mark.parametrize("folded", [1, 2, 3])
+def test_a_folded_mesh_is_made_again_a_little_finer(
+    folded: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Whether an element folds is chance; another mesh of the same solid has none."""
+    tried: list[int] = []
+
+    def unlucky(nodes: Array, tets: NDArray[np.int32]) -> str:
+        tried.append(len(tets))
+        return "every mesh has a folded element." if len(tried) <= folded else ""
+
+    monkeypatch.setattr(solid, "_folded_element", unlucky)
+    if folded == 3:
+        with pytest.raises(MeshingError, match="every mesh has a folded element"):
+            meshed(tmp_path, ball(), COARSE)
+    else:
+        assert len(meshed(tmp_path, ball(), COARSE).tets) == tried[-1]
+    assert len(set(tried)) == len(tried) == min(folded + 1, 3)
 
 
 @pytest.mark.parametrize("size", [2.0, 4.0])
