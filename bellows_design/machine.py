@@ -76,11 +76,20 @@ def memory_gib() -> float | None:
 
 def address_space_gib() -> float | None:
     """Limit of this process's address space (``ulimit -v``), GiB; None without one."""
+    return _limit_of_process("RLIMIT_AS")
+
+
+def data_gib() -> float | None:
+    """Limit of what this process may allocate (``ulimit -d``), GiB; None without one."""
+    return _limit_of_process("RLIMIT_DATA")
+
+
+def _limit_of_process(name: str) -> float | None:
     try:
         import resource
     except ImportError:  # Windows
         return None
-    limit, _ = resource.getrlimit(resource.RLIMIT_AS)
+    limit, _ = resource.getrlimit(getattr(resource, name))
     return None if limit == resource.RLIM_INFINITY else limit / GIB
 
 
