@@ -13,18 +13,28 @@ GEOMETRY, CHECK, EVALUATION = 1.3, 1.7, 2.2
 evaluates cannot be loaded and used. With two cores 1.2, 1.5 and 2.0 GiB were observed to suffice;
 1.1, 1.3 and 1.9 GiB were not."""
 
+EVALUATION_DATA = 0.95
+"""The same of what may be allocated: 0.86 GiB were observed to suffice; with 0.6 the solver's
+libraries end the process."""
+
 _IN_WORDS = re.compile(r"failed to map segment|cannot allocate memory|out of memory", re.IGNORECASE)
 
 
 def require_address_space(gib: float) -> None:
-    """Raise ``MemoryError`` if this process is limited to less."""
-    from bellows_design.machine import address_space_gib
+    """Raise ``MemoryError`` if this process is limited to less, or to too little to allocate."""
+    from bellows_design.machine import address_space_gib, data_gib
 
     limit = address_space_gib()
     if limit is not None and limit < gib:
         raise MemoryError(
             f"this process is limited to {limit:.2f} GiB of address space (ulimit -v) but needs "
             f"{gib:g} GiB"
+        )
+    data = data_gib()
+    if gib >= EVALUATION and data is not None and data < EVALUATION_DATA:
+        raise MemoryError(
+            f"this process is limited to {data:.2f} GiB of data (ulimit -d) but needs "
+            f"{EVALUATION_DATA:g} GiB"
         )
 
 

@@ -53,16 +53,18 @@ def test_too_little_address_space_is_noticed_before_libraries_abort(
 
 
 def test_without_a_limit_nothing_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("bellows_design.machine.address_space_gib", lambda: None)
+    for limit in ("address_space_gib", "data_gib"):
+        monkeypatch.setattr(f"bellows_design.machine.{limit}", lambda: None)
     require_address_space(1e9)
 
 
 @LINUX
 @pytest.mark.slow
-def test_no_memory_for_the_factors_is_no_singular_matrix() -> None:
-    ended = bellows("evaluate", "prototype_1", limits="ulimit -d 600000;")
-    assert ended.status == 3 and "not enough memory" in ended.err
-    assert "singular" not in ended.err and "try other numbers" not in ended.err
+def test_too_little_to_allocate_is_noticed_before_libraries_abort() -> None:
+    for kibibytes, limit in ((400_000, "0.38"), (600_000, "0.57"), (900_000, "0.86")):
+        ended = bellows("evaluate", "prototype_1", limits=f"ulimit -d {kibibytes};")
+        assert ended.status == 3 and "not enough memory" in ended.err
+        assert f"limited to {limit} GiB of data (ulimit -d) but needs 0.95 GiB" in ended.err
 
 
 @LINUX
