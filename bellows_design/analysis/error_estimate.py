@@ -49,6 +49,17 @@ def error_estimate(computation: Computation) -> ErrorEstimate:
     return ErrorEstimate(_angle_error(computation), _stress_error(computation))
 
 
+def least_estimate(computation: Computation) -> ErrorEstimate:
+    """What the estimates stay above on any mesh, percent: their least values, and the ends."""
+    finest, peak = computation.finest, computation.peaks[-1]
+    angle = reading(computation, finest.path[-1]).bending_angle_deg
+    stress = LEAST_STRESS_ERROR * peak.value + _ends_stress_error(computation)
+    return ErrorEstimate(
+        _percent(LEAST_ANGLE_ERROR * abs(angle) + _ends_error(computation), angle),
+        _percent(stress, peak.value),
+    )
+
+
 def _angle_error(computation: Computation) -> float | None:
     """That difference is about the error of the coarser mesh, so a careful guess at the finer's."""
     coarse, fine = (
@@ -79,9 +90,13 @@ def _stress_error(computation: Computation) -> float | None:
     difference = _care(computation) * abs(coarse.value - fine.value) / 2
     least = FEW_MESHES.get(len(computation.solved), LEAST_STRESS_ERROR)
     error = max(difference, fine.scatter, least * fine.value)
-    if ends_factor(computation) > 1:
-        error += ENDS_STRESS_ERROR * fine.value
-    return _percent(error, fine.value)
+    return _percent(error + _ends_stress_error(computation), fine.value)
+
+
+def _ends_stress_error(computation: Computation) -> float:
+    """Error (MPa) of the finest mesh's highest stress where the ends are stressed more."""
+    more = ends_factor(computation) > 1
+    return ENDS_STRESS_ERROR * computation.peaks[-1].value if more else 0.0
 
 
 def _percent(error: float, value: float) -> float | None:

@@ -9,7 +9,9 @@ from itertools import pairwise
 import pytest
 
 from bellows_design import load_design, with_overrides
+from bellows_design.analysis import evaluate as evaluating
 from bellows_design.analysis.computation import Computation
+from bellows_design.analysis.error_estimate import ErrorEstimate, least_estimate
 from bellows_design.analysis.evaluate import evaluate, evaluation_of
 from bellows_design.analysis.evaluation import Evaluation
 from bellows_design.analysis.models import FULL, HALF, UNIT_CELL
@@ -138,6 +140,23 @@ def test_ends_that_are_stressed_more_decide_the_highest_stress(cell: Evaluation)
     behind = evaluation_of(with_ends_stressed(cell, 1.5, offset=1.0))
     assert behind.max_von_mises_position_mm[0] == pytest.approx(last + 1.0)
     assert found.strain.highest >= cell.strain.highest
+
+
+def test_no_mesh_is_made_for_an_accuracy_that_the_ends_rule_out(cell: Evaluation) -> None:
+    """Three bubbles: the ends alone leave 2 % of the angle open."""
+    least = least_estimate(cell.computation)
+    angle, stress = least.bending_angle_percent, least.max_von_mises_percent
+    assert angle is not None and stress is not None
+    estimate = cell.error_estimate
+    assert estimate.bending_angle_percent is not None
+    assert 2.4 < angle <= estimate.bending_angle_percent and stress == pytest.approx(2.0)
+    near = ErrorEstimate(1.2 * angle, 1.2 * stress)
+    far = ErrorEstimate(1.3 * angle, 1.2 * stress)
+    with pytest.MonkeyPatch.context() as patch:
+        for shown, enough in ((near, True), (far, False)):
+            patch.setattr(evaluating, "error_estimate", lambda _, shown=shown: shown)
+            assert evaluating._enough(cell.computation, 0.01) is enough
+        assert evaluating._enough(cell.computation, 10.0)
 
 
 def with_ends_stressed(cell: Evaluation, ratio: float, offset: float = -1.0) -> Computation:
