@@ -16,6 +16,7 @@ from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
 from bellows_design.analysis.error_estimate import LEAST_STRESS_ERROR
+from bellows_design.design.conditions import LEAST_PRESSURE
 from bellows_design.design.design import Design
 from printers import PrintabilityReport
 
@@ -164,8 +165,11 @@ def _contact_reason(required: float, state: LoadedState) -> Reason:
         walls = " and ".join(state.contact.where)
         message = f"{walls} touch at {required:g} MPa, and this model does not keep them apart."
         return Reason("contact", "contact", required, required, "MPa", _sentence(message))
-    message = f"{state.message} The design may be judged at pressures up to {touch:.4g} MPa."
-    return Reason("contact", "contact", touch, required, "MPa", _sentence(message))
+    up_to = f"The design may be judged at pressures up to {touch:.4g} MPa."
+    if abs(touch) < LEAST_PRESSURE:
+        up_to = f"Pressures below that, under {LEAST_PRESSURE:g} MPa, are not judged."
+    message = _sentence(f"{state.message} {up_to}")
+    return Reason("contact", "contact", touch, required, "MPa", message)
 
 
 def _sentence(text: str) -> str:

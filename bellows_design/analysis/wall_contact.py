@@ -1,8 +1,9 @@
 """Which walls touch under pressure, and how near the others come.
 
 The unit cell models contact with its mirror images: of neighbouring bubbles, and of a chamber's
-opposite walls. Half and full actuators model none, nor does the cell between its own inner walls:
-there a solve stops at the first touch, by ``touch_guard``.
+opposite walls. Half and full actuators model none, nor does the cell between walls of its own that
+are no mirror images, such as floor and roof of the channel: there a solve stops at the first touch,
+by ``touch_guard``.
 """
 
 from __future__ import annotations
@@ -27,7 +28,9 @@ NEIGHBOURS, OUTER, INSIDE = "neighbouring bubbles", "outer walls", "inner walls"
 ITSELF = "distant parts"
 
 UNMODELLED = "this model lets walls through each other: its result does not hold past the touch"
-PARTLY = "inner walls meet where no contact is modelled: the result does not hold past the touch"
+PARTLY = (
+    "walls of one bubble meet where no contact is modelled: the result does not hold past the touch"
+)
 OVERLAP = (
     "distant parts of the actuator run through each other, as past a full turn: what they exert on "
     "each other is not modelled"
@@ -39,8 +42,8 @@ FREE_ENDS = "as inner walls touch, each end is taken as half a bubble without a 
 class WallContact:
     """How near walls come to each other.
 
-    ``detected``: walls touch or run into each other: those of neighbouring bubbles outside, or
-    opposite ones inside. ``min_gap_mm``, ``inner_gap_mm``: narrowest air between the former and
+    ``detected``: walls touch or run into each other: those of neighbouring bubbles, others outside,
+    or opposite ones inside. ``min_gap_mm``, ``inner_gap_mm``: narrowest air between the former and
     between the latter, None if they face nothing; negative by how far they run into each other, or
     by how far modelled contact lets them. ``overlaps_itself``: distant parts of the actuator run
     through each other, as they do past a full turn. ``where``: which walls touch. ``modelled``:

@@ -110,6 +110,9 @@ def test_a_first_touch_names_the_pressure_up_to_which_the_design_may_be_judged()
         "The design may be judged at pressures up to 0.04 MPa."
     )
     assert not verdict.undecided
+    at_once = replace(touched, pressure_mpa=2e-5, touch_pressure_mpa=2e-5)
+    (reason,) = decide(DESIGN, fake_report(), at_once).reasons
+    assert reason.message.endswith("Pressures below that, under 0.001 MPa, are not judged.")
 
 
 def test_rules_without_data_are_listed_as_not_judged() -> None:
