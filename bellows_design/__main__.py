@@ -8,6 +8,9 @@ import sys
 
 from bellows_design.cli.early_signals import leave_at_signals
 
+SIGNALLED = 128
+"""Statuses above it tell of a signal."""
+
 
 def main() -> None:
     """Run the command; its own imports, which take a while, may be interrupted already."""
@@ -21,8 +24,16 @@ def main() -> None:
 
 
 def _leave(status: int) -> None:
-    """End the process; taking apart what was compiled and loaded would take another second."""
-    atexit._run_exitfuncs()
+    """End the process; taking apart what was compiled and loaded would take another second.
+
+    After a signal, libraries may be half loaded, and what they registered for the end may crash.
+    """
+    if status > SIGNALLED:
+        from bellows_design.cli.answer import clear_up
+
+        clear_up()
+    else:
+        atexit._run_exitfuncs()
     sys.stdout.flush()
     sys.stderr.flush()
     os._exit(status)

@@ -177,11 +177,16 @@ def _flush_c_streams() -> None:
     ctypes.CDLL(None).fflush(None)
 
 
+def clear_up() -> None:
+    """Remove what is unfinished: the process ends at once."""
+    for module, function in CLEARING_UP.items():
+        if module in sys.modules:  # the main thread may be importing it: to import it would wait
+            getattr(sys.modules[module], function, int)()
+
+
 def _leave(number: int, json_to: int | None) -> None:
     """End the process at once because of a signal; with an answer on the file ``json_to``."""
-    for module, clear_up in CLEARING_UP.items():
-        if module in sys.modules:  # the main thread may be importing it: to import it would wait
-            getattr(sys.modules[module], clear_up, int)()
+    clear_up()
     sentence, status = ended_by(number)
     with suppress(OSError):
         os.write(2, f"bellows: {sentence}\n".encode())
