@@ -297,6 +297,7 @@ def test_distant_parts_that_overlap_are_a_warning_and_void_nothing(problem: Prob
     assert through.void and through.warnings[0] == f"{UNMODELLED}."
 
 
+@pytest.mark.slow
 def test_the_ends_of_a_cell_whose_inner_walls_touch_only_there_are_half_bubbles(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
