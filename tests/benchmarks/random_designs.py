@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import json
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -39,12 +40,20 @@ RANGES = {
 PRESSURES = (0.02, 0.15)
 
 
+Draw = Callable[[np.random.Generator, str], Design | None]
+
+
 def drawn(count: int) -> list[Design]:
     """So many admissible designs of four bubbles or more."""
-    generator = np.random.default_rng(SEED)
+    return admissible(count, SEED, _draw)
+
+
+def admissible(count: int, seed: int, draw: Draw) -> list[Design]:
+    """So many designs by ``draw``, which gives None where numbers describe no solid."""
+    generator = np.random.default_rng(seed)
     found: list[Design] = []
     while len(found) < count:
-        design = _draw(generator, f"random_{len(found)}")
+        design = draw(generator, f"random_{len(found)}")
         if design is not None:
             found.append(design)
     return found

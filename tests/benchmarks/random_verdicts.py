@@ -24,7 +24,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from random_designs import RANGES
+from random_designs import RANGES, admissible
 
 from bellows_design.analysis.evaluate import evaluate, loaded_state
 from bellows_design.analysis.evaluation import Evaluation, LoadedState
@@ -54,13 +54,7 @@ PASSED = PrintabilityReport(
 
 def drawn(count: int) -> list[Design]:
     """So many admissible designs, each under its load."""
-    generator = np.random.default_rng(SEED)
-    found: list[Design] = []
-    while len(found) < count:
-        design = _draw(generator, f"random_{len(found)}")
-        if design is not None:
-            found.append(design)
-    return found
+    return admissible(count, SEED, _draw)
 
 
 def _draw(generator: np.random.Generator, name: str) -> Design | None:

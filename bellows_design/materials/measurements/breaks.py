@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from scipy.ndimage import median_filter
 
 from bellows_design.materials.measurements.series import Series
 from solver.arrays import Reals
@@ -67,8 +68,7 @@ def _without_spikes(load: Reals) -> Reals:
     """Medians of three neighbours: one point that jumps up is no peak."""
     if load.size < 5:
         return load
-    padded = np.pad(load, 1, mode="edge")
-    result: Reals = np.median(np.lib.stride_tricks.sliding_window_view(padded, 3), axis=1)
+    result: Reals = median_filter(load, 3, mode="nearest")
     return result
 
 

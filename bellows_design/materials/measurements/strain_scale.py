@@ -11,6 +11,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
+from scipy.ndimage import median_filter
 
 from bellows_design.errors import DesignError
 from bellows_design.materials.bounds import SOFTEST, STIFFEST
@@ -125,6 +126,5 @@ def _smoothed(values: Reals) -> Reals:
     """Medians of five neighbours, of fewer at the ends."""
     if values.size < 5:
         return values
-    padded = np.pad(values, 2, mode="edge")
-    result: Reals = np.median(np.lib.stride_tricks.sliding_window_view(padded, 5), axis=1)
+    result: Reals = median_filter(values, 5, mode="nearest")
     return result
