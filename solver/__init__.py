@@ -16,13 +16,13 @@ if TYPE_CHECKING:
     from solver.adaptivity.transfer import transfer
     from solver.material.ogden import Ogden
     from solver.mesh.mesh import Mesh
-    from solver.nonlinear.arc_length import Limit, Trace, trace
     from solver.nonlinear.checkpoint import Checkpoint
     from solver.nonlinear.events import Event
     from solver.nonlinear.finite_motion import rotation
-    from solver.nonlinear.load_stepping import solve
     from solver.nonlinear.options import SolverOptions
-    from solver.nonlinear.volume_control import inflate
+    from solver.paths.arc_length import Limit, Trace, trace
+    from solver.paths.load_stepping import solve
+    from solver.paths.volume_control import inflate
     from solver.problem.loads import BodyForce, Couple, PointForce, Traction
     from solver.problem.problem import Contact, Problem, SlenderAxis
     from solver.problem.supports import Supports
@@ -71,13 +71,13 @@ __getattr__ = imported_when_asked_for(
         "adaptivity.transfer": ("transfer",),
         "material.ogden": ("Ogden",),
         "mesh.mesh": ("Mesh",),
-        "nonlinear.arc_length": ("Limit", "Trace", "trace"),
+        "paths.arc_length": ("Limit", "Trace", "trace"),
         "nonlinear.checkpoint": ("Checkpoint",),
         "nonlinear.finite_motion": ("rotation",),
-        "nonlinear.load_stepping": ("solve",),
+        "paths.load_stepping": ("solve",),
         "nonlinear.events": ("Event",),
         "nonlinear.options": ("SolverOptions",),
-        "nonlinear.volume_control": ("inflate",),
+        "paths.volume_control": ("inflate",),
         "problem.loads": ("BodyForce", "Couple", "PointForce", "Traction"),
         "problem.problem": ("Contact", "Problem", "SlenderAxis"),
         "results.reactions": ("Reaction", "reaction"),

@@ -1,1 +1,1 @@
-"""Equilibrium paths: Newton's method, load steps, arc length, volume control."""
+"""Newton's method at one load."""

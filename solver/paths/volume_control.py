@@ -17,12 +17,12 @@ from solver.assembly.assembly import Equilibrium
 from solver.assembly.pressure import enclosed_volume
 from solver.assembly.state import State
 from solver.errors import SolverError
-from solver.nonlinear.bordering import EquilibriumPoint, corrected, equilibrium_point
 from solver.nonlinear.events import Listener
-from solver.nonlinear.load_stepping import Path, solution_of
 from solver.nonlinear.newton import Newton
 from solver.nonlinear.options import FIRST_STEP, SolverOptions
-from solver.nonlinear.step_control import Segment, StepControl, follow
+from solver.paths.bordering import EquilibriumPoint, corrected, equilibrium_point
+from solver.paths.load_stepping import Path, solution_of
+from solver.paths.step_control import Segment, StepControl, follow
 from solver.problem.problem import Problem
 from solver.results.solution import PathPoint, Solution
 

@@ -16,12 +16,12 @@ from solver.nonlinear.checkpoint import Checkpoint, Effort
 from solver.nonlinear.events import Guard, Listener
 from solver.nonlinear.newton import Attempt, Newton
 from solver.nonlinear.options import FIRST_STEP, SolverOptions
-from solver.nonlinear.step_control import Segment, StepControl, follow
+from solver.paths.step_control import Segment, StepControl, follow
 from solver.problem.problem import Problem
 from solver.results.solution import PathPoint, Solution, StopKind
 
 if TYPE_CHECKING:
-    from solver.nonlinear.arc_length import Limit
+    from solver.paths.arc_length import Limit
 
 Points: TypeAlias = tuple[PathPoint, ...]
 
@@ -314,7 +314,7 @@ def _stop_kind(newton: Newton, segment: Segment[Attempt]) -> StopKind:
 
 def _limit_near(newton: Newton, state: State, load: float) -> Limit | None:
     """The limit point that explains why no step from a state succeeds, if there is one."""
-    from solver.nonlinear.arc_length import limit_ahead
+    from solver.paths.arc_length import limit_ahead
 
     step = _control(newton.options).smallest_at(load)
     limit = limit_ahead(newton, state, load, step, LIMIT_STEPS)

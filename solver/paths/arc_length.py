@@ -20,10 +20,10 @@ from solver.arrays import Reals
 from solver.assembly.assembly import Equilibrium
 from solver.assembly.state import State
 from solver.errors import SolverError
-from solver.nonlinear.bordering import EquilibriumPoint, corrected, equilibrium_point
 from solver.nonlinear.events import Listener
 from solver.nonlinear.newton import Newton
 from solver.nonlinear.options import FIRST_STEP, SolverOptions
+from solver.paths.bordering import EquilibriumPoint, corrected, equilibrium_point
 from solver.problem.problem import Problem
 from solver.results.solution import PathPoint
 

@@ -9,10 +9,10 @@ import pytest
 
 from solver import Event, Mesh, Ogden, Problem, SolverOptions, Supports, inflate, solve
 from solver.assembly.state import State
-from solver.nonlinear import load_stepping
 from solver.nonlinear.events import Guard
 from solver.nonlinear.newton import Attempt, Newton
-from solver.nonlinear.step_control import StepControl
+from solver.paths import load_stepping
+from solver.paths.step_control import StepControl
 
 PLANES = Supports(symmetry={"x0": 0, "y0": 1, "z0": 2})
 LIMIT = 0.118

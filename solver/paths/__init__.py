@@ -1,0 +1,1 @@
+"""Equilibrium paths: load steps, arc length, volume control."""
