@@ -23,8 +23,10 @@ if TYPE_CHECKING:
     from solver.paths.arc_length import Limit, Trace, trace
     from solver.paths.load_stepping import solve
     from solver.paths.volume_control import inflate
+    from solver.problem.contacts import Contact, RigidPlane
     from solver.problem.loads import BodyForce, Couple, PointForce, Traction
-    from solver.problem.problem import Contact, Problem, SlenderAxis
+    from solver.problem.problem import Problem, SlenderAxis
+    from solver.problem.springs import FoundationSpring, NodeSpring
     from solver.problem.supports import Supports
     from solver.results.reactions import Reaction, reaction
     from solver.results.solution import PathPoint, Solution, cavity_volume
@@ -37,14 +39,17 @@ __all__ = [
     "Contact",
     "Couple",
     "Event",
+    "FoundationSpring",
     "Limit",
     "Mesh",
+    "NodeSpring",
     "Ogden",
     "PathPoint",
     "Peak",
     "PointForce",
     "Problem",
     "Reaction",
+    "RigidPlane",
     "SlenderAxis",
     "Solution",
     "SolverOptions",
@@ -79,7 +84,9 @@ __getattr__ = imported_when_asked_for(
         "nonlinear.options": ("SolverOptions",),
         "paths.volume_control": ("inflate",),
         "problem.loads": ("BodyForce", "Couple", "PointForce", "Traction"),
-        "problem.problem": ("Contact", "Problem", "SlenderAxis"),
+        "problem.contacts": ("Contact", "RigidPlane"),
+        "problem.problem": ("Problem", "SlenderAxis"),
+        "problem.springs": ("FoundationSpring", "NodeSpring"),
         "results.reactions": ("Reaction", "reaction"),
         "problem.supports": ("Supports",),
         "results.solution": ("PathPoint", "Solution", "cavity_volume"),

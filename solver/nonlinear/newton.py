@@ -172,7 +172,7 @@ class Newton:
                 found = self._correction(state, load, reuse, iteration)
             except NoCorrection as reason:
                 return Attempt(guess, iteration, str(reason), touched=touched)
-            depth = self.assembly.contacts.depth(found.moved)
+            depth = self.assembly.contacts.depth(found.moved, load)
             touched |= bool(np.isfinite(depth))
             small = found.size <= min(tolerance * self.problem.mesh.size, depth)
             fast = found.size < self.options.reuse * previous
@@ -268,6 +268,8 @@ class Newton:
         The part of prescribed motions is a difference quotient: only predictors use it.
         """
         rate: Reals = self.pressure * equilibrium.force - self.assembly.dead_force
+        if self.assembly.contacts.move:
+            rate = rate + self.assembly.contacts.rate(state, load)
         if not self.problem.supports.prescribed:
             return rate
         step = DIFFERENCE if load < 0.5 else -DIFFERENCE

@@ -23,6 +23,7 @@ from solver.nonlinear.options import FIRST_STEP, SolverOptions
 from solver.paths.bordering import EquilibriumPoint, corrected, equilibrium_point
 from solver.paths.load_stepping import Path, solution_of
 from solver.paths.step_control import Segment, StepControl, follow
+from solver.problem.contacts import planes_move
 from solver.problem.problem import Problem
 from solver.results.solution import PathPoint, Solution
 
@@ -55,7 +56,8 @@ def inflate(
             between the undeformed one and ``volume``.
     """
     start = time.perf_counter()
-    if problem.loads or problem.supports.prescribed or not problem.pressurised:
+    moved = problem.supports.prescribed or planes_move(problem.contacts)
+    if problem.loads or moved or not problem.pressurised:
         raise SolverError("inflate: the problem's only load must be the pressure in a cavity.")
     newton = Newton(problem, 1.0, options or SolverOptions(), listener)
     segment, points = _followed(newton, volume, stops)

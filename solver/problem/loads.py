@@ -135,18 +135,23 @@ def _integrated(mesh: Mesh, cells: Integers, rule: Rule, sizes: Reals, field: Fi
     return forces
 
 
-def _on_node(mesh: Mesh, load: PointForce) -> Reals:
+def node_at(mesh: Mesh, position: tuple[float, float, float], what: str = "point force") -> int:
+    """The node of an element at a position in mm; ``SolverError`` if there is none."""
     nodes = np.unique(mesh.tets)
-    away = mesh.nodes[nodes] - _values(load.position, np.zeros((1, 3)))
+    away = mesh.nodes[nodes] - _values(position, np.zeros((1, 3)))
     distances = np.linalg.norm(away, axis=1)
     nearest = int(distances.argmin())
     if distances[nearest] > 1e-6 * mesh.size:
         raise SolverError(
-            f"point force: no node lies at {load.position} mm; the nearest is "
+            f"{what}: no node lies at {position} mm; the nearest is "
             f"{distances[nearest]:.3g} mm away."
         )
+    return int(nodes[nearest])
+
+
+def _on_node(mesh: Mesh, load: PointForce) -> Reals:
     forces = np.zeros(mesh.nodes.shape)
-    forces[nodes[nearest]] = _values(load.force, np.zeros((1, 3)))[0]
+    forces[node_at(mesh, load.position)] = _values(load.force, np.zeros((1, 3)))[0]
     return forces
 
 
