@@ -28,15 +28,19 @@ if TYPE_CHECKING:
     from solver.problem.problem import Problem, SlenderAxis
     from solver.problem.springs import FoundationSpring, NodeSpring
     from solver.problem.supports import Supports
+    from solver.results.contacts import ContactForce, contact_forces
+    from solver.results.energy import Potential, potential, strain_energy
     from solver.results.reactions import Reaction, reaction
     from solver.results.solution import PathPoint, Solution, cavity_volume
     from solver.results.stress import Peak, nodal_cauchy, nodal_von_mises, peak_von_mises
     from solver.results.vtu import write_vtu
+    from solver.results.work import Work, work
 
 __all__ = [
     "BodyForce",
     "Checkpoint",
     "Contact",
+    "ContactForce",
     "Couple",
     "Event",
     "FoundationSpring",
@@ -47,6 +51,7 @@ __all__ = [
     "PathPoint",
     "Peak",
     "PointForce",
+    "Potential",
     "Problem",
     "Reaction",
     "RigidPlane",
@@ -56,16 +61,21 @@ __all__ = [
     "Supports",
     "Trace",
     "Traction",
+    "Work",
     "cavity_volume",
+    "contact_forces",
     "inflate",
     "nodal_cauchy",
     "nodal_von_mises",
     "peak_von_mises",
+    "potential",
     "reaction",
     "rotation",
     "solve",
+    "strain_energy",
     "trace",
     "transfer",
+    "work",
     "write_vtu",
 ]
 
@@ -87,10 +97,13 @@ __getattr__ = imported_when_asked_for(
         "problem.contacts": ("Contact", "RigidPlane"),
         "problem.problem": ("Problem", "SlenderAxis"),
         "problem.springs": ("FoundationSpring", "NodeSpring"),
+        "results.contacts": ("ContactForce", "contact_forces"),
+        "results.energy": ("Potential", "potential", "strain_energy"),
         "results.reactions": ("Reaction", "reaction"),
         "problem.supports": ("Supports",),
         "results.solution": ("PathPoint", "Solution", "cavity_volume"),
         "results.vtu": ("write_vtu",),
+        "results.work": ("Work", "work"),
         "results.stress": ("Peak", "nodal_cauchy", "nodal_von_mises", "peak_von_mises"),
     },
 )

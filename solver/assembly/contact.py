@@ -33,7 +33,13 @@ from solver.arrays import Integers, Reals
 from solver.assembly.moving_plane import MovingPlane
 from solver.assembly.state import State
 from solver.errors import SolverError
-from solver.kernels.contact import Face, Plane, assemble_contact, face_energy
+from solver.kernels.contact import (
+    Face,
+    Plane,
+    assemble_contact,
+    contact_pressures,
+    face_energy,
+)
 from solver.linear.sparsity import Pattern, widened
 from solver.mesh.elements import triangle_rule
 from solver.mesh.mesh import Mesh
@@ -107,6 +113,15 @@ class ContactPair:
         """True if a quadrature point is beyond the plane."""
         return bool((self.gaps(state, load) < 0).any())
 
+    def pressures(self, state: State, load: float) -> Reals:
+        """Pressure per reference area at the quadrature points, (k, q), MPa."""
+        pressures: Reals = contact_pressures(self.face, self.gaps(state, load))
+        return pressures
+
+    def energy(self, state: State, load: float) -> float:
+        """Energy of the penetration, N mm."""
+        return float(face_energy(self.face, self.plane(state, load), state.displacement))
+
     def forces(self, state: State, load: float) -> Reals:
         """Nodal forces (n, 3) of the plane on the body, N; ``face`` numbers all displacements."""
         residual = np.zeros(state.displacement.size)
@@ -163,9 +178,7 @@ class Contacts:
 
     def energy(self, state: State, load: float = 0.0) -> float:
         """Energy of all contacts, N mm."""
-        return float(
-            sum(face_energy(p.face, p.plane(state, load), state.displacement) for p in self._pairs)
-        )
+        return float(sum(pair.energy(state, load) for pair in self._pairs))
 
     def depth(self, state: State, load: float) -> float:
         """Least penetration (mm) of the active contacts; infinite without any."""
@@ -309,7 +322,9 @@ def _check_apart(problem: Problem, pairs: tuple[ContactPair, ...]) -> None:
     for pair in pairs:
         lowest = float(pair.gaps(still, 0.0).min(initial=0.0))
         if lowest < -INITIAL_CROSSING * problem.mesh.size:
+            rigid = isinstance(pair.contact, RigidPlane)
+            side = "the side to which the normal points" if rigid else "one side"
             raise SolverError(
                 f"contacts: the surface {pair.contact.surface!r} lies {-lowest:.3g} mm beyond its "
-                "plane before any load; it must be on one side."
+                f"plane before any load; it must be on {side}."
             )

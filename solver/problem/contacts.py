@@ -72,7 +72,7 @@ class RigidPlane:
     Raises:
         SolverError: a penetration that is not positive and finite, a normal or point that is not
             three finite numbers, a normal of length zero, or a motion that is no function of the
-            load, is not zero at no load, or does not give three finite numbers.
+            load or does not give three finite numbers.
     """
 
     surface: str
@@ -90,7 +90,12 @@ class RigidPlane:
             object.__setattr__(self, name, tuple(float(x) for x in values))
         if not any(self.normal):
             raise SolverError("contacts: the normal of the rigid plane must not have length zero.")
-        self._check_motion()
+        if self.motion is not None and not callable(self.motion):
+            raise SolverError(
+                "contacts: the motion of a rigid plane must be a function of the load, "
+                f"got {self.motion}."
+            )
+        self.displacement(0.0), self.displacement(1.0)
 
     @property
     def unit_normal(self) -> Reals:
@@ -116,19 +121,6 @@ class RigidPlane:
         """
         normal = self.unit_normal
         return np.append(normal, -normal @ (np.array(self.point) + self.displacement(load)))
-
-    def _check_motion(self) -> None:
-        if self.motion is not None and not callable(self.motion):
-            raise SolverError(
-                "contacts: the motion of a rigid plane must be a function of the load, "
-                f"got {self.motion}."
-            )
-        start, end = np.abs(self.displacement(0.0)).max(), np.abs(self.displacement(1.0)).max()
-        if start > 1e-9 * end:
-            raise SolverError(
-                f"contacts: the motion of the plane of {self.surface!r} must be zero at no load, "
-                f"got {start:.3g} mm."
-            )
 
 
 ContactPlane: TypeAlias = Contact | RigidPlane
@@ -160,8 +152,20 @@ def check_contacts(
                 f"contacts: the surface {contact.surface!r} needs an axis, as the problem has no "
                 "moving plane."
             )
-        if isinstance(contact, RigidPlane) and moving_plane is not None:
-            raise SolverError(
-                "contacts: a cell with a moving plane touches mirror images, not rigid planes."
-            )
+        if isinstance(contact, RigidPlane):
+            _check_rigid(mesh, contact, moving_plane)
     return tuple(contacts)
+
+
+def _check_rigid(mesh: Mesh, contact: RigidPlane, moving_plane: str | None) -> None:
+    """Raise ``SolverError`` for a rigid plane at a cell, or one whose motion begins with a leap."""
+    if moving_plane is not None:
+        raise SolverError(
+            "contacts: a cell with a moving plane touches mirror images, not rigid planes."
+        )
+    start = float(np.abs(contact.displacement(0.0)).max())
+    if start > 1e-9 * mesh.size:
+        raise SolverError(
+            f"contacts: the motion of the plane of {contact.surface!r} must be zero at no load, "
+            f"got {start:.3g} mm."
+        )
