@@ -110,6 +110,8 @@ class Newton:
         self.slender = self.problem.axis is not None and self.assembly.plane is None
         self.trusted = trusted_nodes(self.problem)
         self.loose_tolerance = min(self.options.loose_tolerance, EDGE_SHARE * mesh.edge / mesh.size)
+        if self.problem.springs:  # stress left open must not outweigh a soft spring
+            self.loose_tolerance = min(self.loose_tolerance, self.options.tolerance)
         self.began = time.monotonic()
         self.limited = True
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from solver.arrays import Reals
+from solver.arrays import Integers, Reals
 from solver.assembly.contact import ContactPair, contact_pairs
 from solver.mesh.elements import triangle_rule
 from solver.problem.vectors import finite
@@ -24,9 +24,10 @@ class ContactForce:
         moment: about a given point.
 
             *Shape:* (3,) in N mm.
-        area: of the deformed surface in contact, mm^2; it counts by quadrature points, of which a
-            triangle has six, so that its error falls with the size of the elements.
-        peak_pressure: the largest at a quadrature point, per deformed area, MPa.
+        area: of the deformed surface nearer to the plane than the contact's ``penetration``, mm^2.
+        peak_pressure: largest at a vertex, per deformed area, MPa: the average over the triangles
+            around it. From point to point the pressure of a stiff contact oscillates, its averages
+            do not.
         gap: least signed distance of the surface from the plane, mm; in contact minus the
             penetration.
     """
@@ -60,20 +61,29 @@ def contact_forces(
 
 
 def _force(pair: ContactPair, solution: Solution, about: Reals) -> ContactForce:
-    state, face = solution.state, pair.face
-    gaps, pressures = pair.gaps(state, solution.load), pair.pressures(state, solution.load)
-    normal = pair.plane(state, solution.load).equation[:3]
+    state, load, face = solution.state, solution.load, pair.face
+    gaps, borne = pair.gaps(state, load), face.areas * pair.pressures(state, load)
+    normal = pair.plane(state, load).equation[:3]
     deformed = (face.nodes + state.displacement)[face.triangles]
     places = np.einsum("qa,kai->kqi", face.shapes, deformed) - about
-    borne = face.areas * pressures
     areas = _areas(deformed)
     return ContactForce(
         force=borne.sum() * normal,
         moment=np.cross(np.einsum("kq,kqi->i", borne, places), normal),
-        area=float(areas[gaps < 0].sum()),
-        peak_pressure=float((borne / areas).max(initial=0.0)),
+        area=float(areas[gaps < pair.contact.penetration].sum()) if borne.any() else 0.0,
+        peak_pressure=_peak(face.triangles[:, :3], borne, areas),
         gap=float(gaps.min(initial=np.inf)),
     )
+
+
+def _peak(corners: Integers, borne: Reals, areas: Reals) -> float:
+    """Largest average pressure at a vertex, from force and area (k, q) of quadrature points."""
+    vertices, places = np.unique(corners, return_inverse=True)
+    forces, sizes = np.zeros((2, len(vertices)))
+    linear, places = triangle_rule().linear, places.reshape(corners.shape)
+    np.add.at(forces, places, borne @ linear)
+    np.add.at(sizes, places, areas @ linear)
+    return float((forces / sizes).max(initial=0.0))
 
 
 def _areas(triangles: Reals) -> Reals:

@@ -146,10 +146,7 @@ def test_a_turned_spring_has_the_turned_matrix(box: Meshes) -> None:
 def test_a_column_with_a_spring_at_its_head_buckles_as_euler_says(
     box: Meshes, stiffness: float
 ) -> None:
-    """tan(u) = u - u^3 E I / (k L^3), u^2 = P L^2 / E I; E = 3 mu.
-
-    The mode appears a few per cent below it: shear and shortening lower the load of a slender one.
-    """
+    """tan(u) = u - u^3 E I / (k L^3), u^2 = P L^2 / E I; E = 3 mu, and 20 : 1 is slender."""
     mesh = box((20, 1, 1), (20.0, 1.0, 1.0))
     rigidity, support = 3.0 / 12, stiffness * 20**3
     bending = brentq(
@@ -173,7 +170,7 @@ def test_a_column_with_a_spring_at_its_head_buckles_as_euler_says(
         system.factorize(assembly.evaluate(state, 0.0))
         return system.unstable_modes
 
-    assert unstable_modes(0.94 * critical) == 0
+    assert unstable_modes(0.98 * critical) == 0
     assert unstable_modes(1.02 * critical) == 1
 
 
