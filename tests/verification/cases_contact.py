@@ -124,7 +124,7 @@ CASES = (
         "its middle. With Hertz's pressure on a ball, in closed form, the force is right; highest "
         "pressure and radius of the contact follow Hertz.",
         "Hertz's contact of elastic spheres (1881); radial compliance of an elastic ball that "
-        "keeps its volume, 5/19 s R / μ for n = 2 (Kelvin). Status: closed form",
+        "keeps its volume, 5/19 s R / μ for n = 2 (Kelvin). Status: closed form.",
         hertz,
         slow=True,
     ),
@@ -133,7 +133,7 @@ CASES = (
         "A block of neo-Hooke squeezed without friction to half its height stays a block: force "
         "μ (1/λ² − λ) per first area. The plate lets through in proportion to the penetration "
         "asked for.",
-        "Rivlin's homogeneous compression. Status: closed form",
+        "Rivlin's homogeneous compression. Status: closed form.",
         block,
     ),
 )

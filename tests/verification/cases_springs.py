@@ -98,14 +98,14 @@ CASES = (
         "K1 Bar against a spring",
         "A bar of 3 mm under a dead traction of 1.5 MPa pulls a foundation of 0.2 N/mm³ at its "
         "end: μ (λ − 1/λ²) + k (λ − 1) L = t.",
-        "Equilibrium of a homogeneous bar. Status: closed form",
+        "Equilibrium of a homogeneous bar. Status: closed form.",
         bar,
     ),
     Case(
         "K2 Column with a spring at its head",
         "The straight column 20 : 1 becomes unstable at Euler's load, from free to held at its "
         "head; one foot stands on a spring that holds no moment.",
-        "Euler's column with an elastic support, E = 3 μ. Status: closed form",
+        "Euler's column with an elastic support, E = 3 μ. Status: closed form.",
         column,
     ),
 )
