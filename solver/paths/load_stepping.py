@@ -23,7 +23,7 @@ from solver.problem.problem import Problem
 from solver.results.solution import PathPoint, Solution, StopKind
 
 if TYPE_CHECKING:
-    from solver.paths.arc_length import Limit
+    from solver.paths.limits import Limit
 
 LIMIT_DISTANCE = 0.05
 """Largest distance of a limit point that explains a stop, as a fraction of the load reached."""
