@@ -50,8 +50,8 @@ class Equilibrium:
     @property
     def admissible(self) -> bool:
         """No element is inverted and every number is finite."""
-        finite = np.isfinite(self.residual).all() and np.isfinite(self.tangent).all()
-        return bool(self.smallest_jacobian > 0 and finite)
+        numbers = (self.residual, self.tangent, self.skew)
+        return bool(self.smallest_jacobian > 0 and all(np.isfinite(x).all() for x in numbers))
 
 
 class Assembly:

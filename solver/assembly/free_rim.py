@@ -69,7 +69,8 @@ class FreeRim:
 
         ``nodes`` (n, 3): deformed.
         """
-        vectors = -0.5 * pressure * np.einsum("abc,kci->kabi", WEIGHTS, nodes[self.edges])
+        with np.errstate(over="ignore"):  # what is not finite is refused later
+            vectors = -0.5 * pressure * np.einsum("abc,kci->kabi", WEIGHTS, nodes[self.edges])
         matrices = np.einsum("kabm,ijm->kaibj", vectors, CROSS).reshape(self.places.shape)
         used = self.places >= 0
         np.add.at(values, self.places[used], (self.signs * matrices)[used])
