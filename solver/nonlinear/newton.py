@@ -106,7 +106,7 @@ class Newton:
                 "surface."
             )
         mesh = self.problem.mesh
-        self.assembly = Assembly(self.problem)
+        self.assembly = Assembly(self.problem, self.loading.start.displacement)
         self.system = LinearSystem(self.assembly, self.options.linear_solver)
         self.kinematics = Kinematics.of(self.problem, self.assembly.plane, self.loading)
         self.fading_force = self._fading_force()
