@@ -10,25 +10,27 @@ import time
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
-import numpy as np
-
-from solver.errors import SolverError
 from solver.nonlinear.checkpoint import Effort
 from solver.nonlinear.events import Listener
 from solver.nonlinear.loading import Loading
 from solver.nonlinear.newton import Newton
 from solver.nonlinear.options import FIRST_STEP, SolverOptions
 from solver.paths.bordering import equilibrium_point
-from solver.paths.held_volume import HeldVolume, at_volume, volume_of
+from solver.paths.held_volume import HeldVolume, at_volume
 from solver.paths.load_stepping import solve
 from solver.paths.outcome import AtStop, Path, Points, solution_of
 from solver.paths.step_control import Segment, StepControl, follow
 from solver.paths.volume_changes import Change, ChangeKind, changes_between, turning
+from solver.paths.volume_checks import (
+    check_changeable,
+    check_closed,
+    check_volumes,
+    seen_sign,
+    signed_targets,
+    volume_at_start,
+)
 from solver.problem.problem import Problem
 from solver.results.solution import PathPoint, Solution
-
-FIXED_VOLUME = 1e-9
-"""A volume that changes by less than this fraction at a pressure of the shear modulus is fixed."""
 
 
 def inflate(
@@ -67,12 +69,13 @@ def inflate(
         The last equilibrium found; ``pressure`` is the one that the volume takes.
 
     Raises:
-        SolverError: no pressurised surface, a volume inside that cannot change, volumes of the
+        SolverError: no pressurised surface, a free rim of it or an opening that slides in a plane
+            normal to y elsewhere than at y = 0, a volume inside that cannot change, volumes of the
             wrong sign, or not in order between the one at no pressure and ``volume``.
     """
     start = time.perf_counter()
-    if not problem.pressurised:
-        raise SolverError("inflate: a surface must be pressurised, whose volume is controlled.")
+    check_volumes((*stops, volume))
+    check_closed(problem)
     options = options or SolverOptions()
     loaded = _loaded(problem, options, listener)
     if loaded is not None and not loaded.converged:
@@ -193,12 +196,11 @@ class Walk:
 
 def _walked(newton: Newton, volumes: tuple[float, ...], before: Points) -> Walk:
     """From the volume at no pressure through ``volumes``; ``before``: the path up to there."""
-    state, options = newton.loading.start, newton.options
-    rest = volume_of(newton, state)
-    stepper = VolumeStepper(newton, -1.0 if rest < 0 < volumes[-1] else 1.0)
-    targets = _targets(rest, stepper.sign, volumes)
+    state, rest, options = newton.loading.start, volume_at_start(newton), newton.options
+    stepper = VolumeStepper(newton, seen_sign(rest, volumes[-1]))
+    targets = signed_targets(rest, stepper.sign, volumes)
     held = HeldVolume.of(newton, equilibrium_point(newton, state, 0.0), rest)
-    _check_changeable(newton, held)
+    check_changeable(newton, held)
     step = (options.first_step or FIRST_STEP) * abs(targets[-1] - rest)
     segment = Segment(Step(held), rest, step)
     walk = Walk(stepper, segment, targets[-1], before or (stepper.point(held),))
@@ -217,32 +219,6 @@ def _extended(walk: Walk, target: float, options: SolverOptions) -> Walk:
     points = (*walk.points, *segment.points)
     reached = () if segment.failure else (AtStop(segment.reached.held.found.state, points),)
     return replace(walk, segment=segment, points=points, at_stops=(*walk.at_stops, *reached))
-
-
-def _targets(rest: float, sign: float, volumes: Sequence[float]) -> list[float]:
-    """Signed volumes with points, in order from that at no pressure."""
-    last = sign * volumes[-1]
-    targets = sorted({sign * float(volume) for volume in volumes}, reverse=last < rest)
-    finite = all(np.isfinite(targets)) and all(target * rest > 0 for target in targets)
-    if not finite or targets[-1] != last or (targets[0] - rest) * (last - rest) < 0:
-        *stops, volume = volumes
-        raise SolverError(
-            f"inflate: volumes must be positive and lie between the {abs(rest):.6g} mm³ at no "
-            f"pressure and the last one, got {stops} and {volume:g} mm³."
-        )
-    return targets
-
-
-def _check_changeable(newton: Newton, held: HeldVolume) -> None:
-    """Raise ``SolverError`` if no pressure changes the volume at the start."""
-    if held.failure:
-        raise SolverError(f"inflate: at no pressure {held.failure}.")
-    stiffness = newton.problem.material.shear_modulus
-    if not abs(held.compliance) * stiffness > FIXED_VOLUME * abs(held.volume):
-        raise SolverError(
-            f"inflate: the {abs(held.volume):.6g} mm³ inside the pressurised surfaces cannot "
-            "change, whatever the pressure: an incompressible body or supports fill them."
-        )
 
 
 def _solution(newton: Newton, walk: Walk) -> Solution:
