@@ -89,7 +89,7 @@ def signed_targets(rest: float, sign: float, volumes: Sequence[float]) -> list[f
     Raises ``SolverError`` if one is of another sign than ``rest`` or out of order.
     """
     last = sign * volumes[-1]
-    targets = sorted({sign * float(volume) for volume in volumes}, reverse=last < rest)
+    targets = sorted({sign * volume for volume in volumes}, reverse=last < rest)
     inside = all(target * (rest or 1.0) > 0 for target in targets)
     if not inside or targets[-1] != last or (targets[0] - rest) * (last - rest) < 0:
         *stops, volume = volumes

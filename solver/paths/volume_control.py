@@ -74,14 +74,15 @@ def inflate(
             wrong sign, or not in order between the one at no pressure and ``volume``.
     """
     start = time.perf_counter()
-    check_volumes((*stops, volume))
+    volumes = tuple(float(each) for each in (*stops, volume))
+    check_volumes(volumes)
     check_closed(problem)
     options = options or SolverOptions()
     loaded = _loaded(problem, options, listener)
     if loaded is not None and not loaded.converged:
         return replace(loaded, message=f"the loads at no pressure: {loaded.message}")
     newton = _newton(problem, loaded, options, listener)
-    walk = _walked(newton, (*stops, volume), loaded.path if loaded else ())
+    walk = _walked(newton, volumes, loaded.path if loaded else ())
     return replace(_solution(newton, walk), seconds=time.perf_counter() - start)
 
 

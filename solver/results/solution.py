@@ -112,6 +112,11 @@ class Solution:
         return self.path[-1].stable
 
     @property
+    def stable_at_volume(self) -> bool | None:
+        """Whether a state of ``inflate`` is stable while its volume is held; None if unknown."""
+        return self.path[-1].stable_at_volume
+
+    @property
     def state(self) -> State:
         """Displacement, hydrostatic pressure and moving plane together."""
         return State(self.displacement, self.hydrostatic_pressure, np.array(self.plane))
