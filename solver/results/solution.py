@@ -138,7 +138,7 @@ def cavity_volume(mesh: Mesh, displacement: Reals, surfaces: tuple[str, ...]) ->
         surfaces: names of the surfaces around the cavity; see ``enclosed_volume`` for open ones.
 
     Returns:
-        mm^3.
+        mm^3; negative for surfaces that face outwards, around the body.
 
     Raises:
         SolverError: an unknown surface.

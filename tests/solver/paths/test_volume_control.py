@@ -105,6 +105,18 @@ def test_a_path_keeps_to_the_closed_form_or_says_where_another_branch_begins(
 
 
 @needs_inertia
+def test_small_steps_take_the_stable_branch_and_say_so() -> None:
+    problem = tube(6, 1)
+    volume = 10.2 * at_rest(problem)
+    pumped = inflate(problem, volume, replace(TIGHT, first_step=0.02, growth=1.001))
+    pressure = closed_tube_at(NINJAFLEX, 5.0, 6.0, 10.2)
+    assert pumped.converged and pumped.stable_at_volume
+    assert 0.99 < pumped.pressure / pressure < 0.995
+    assert "it turns onto another branch" in pumped.message
+    assert pumped.bifurcations[0].volume == pytest.approx(7.3 * at_rest(problem), rel=0.04)
+
+
+@needs_inertia
 def test_where_no_branch_begins_none_is_reported() -> None:
     """A mesh with two layers has no such branch."""
     pumped = grown(tube(3, 2), 10.2)
