@@ -16,6 +16,7 @@ FAMILIES = (
     "hard_inputs",
     "hard_walks",
     "hard_limits",
+    "hard_volumes",
     "hard_sameness",
     "hard_designs",
 )
