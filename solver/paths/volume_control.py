@@ -18,7 +18,7 @@ from solver.nonlinear.options import FIRST_STEP, SolverOptions
 from solver.paths.bordering import equilibrium_point
 from solver.paths.held_volume import HeldVolume, at_volume
 from solver.paths.load_stepping import solve
-from solver.paths.outcome import AtStop, Path, Points, solution_of
+from solver.paths.outcome import AtStop, Path, Points, figures, solution_of
 from solver.paths.step_control import Segment, StepControl, follow
 from solver.paths.volume_changes import Change, ChangeKind, changes_between, turning
 from solver.paths.volume_checks import (
@@ -270,10 +270,10 @@ def _told(
     passed = [each for each in passed if each.point in solution.path]
     lost = next((each.point for each in passed if each.kind != "turn"), None)
     branches = [each for each in passed if each.kind != "extremum"]
-    message = f"{reached}, at {solution.pressure:.4g} MPa"
+    message = f"{reached}, at {figures(solution.pressure)} MPa"
     message += f": {failure}" if failure else ""
     if lost is not None:
-        at = f"{lost.pressure:.4g} MPa, at {lost.volume:.6g} mm³"
+        at = f"{figures(lost.pressure)} MPa, at {lost.volume:.6g} mm³"
         message += f"; at constant pressure it is unstable beyond {at}"
     message += _of_branch(branches[0]) if branches else ""
     return replace(
@@ -288,7 +288,7 @@ def _told(
 def _of_branch(passed: Passed) -> str:
     """That another branch begins on the path, as text."""
     point = passed.point
-    at = f"{point.volume:.6g} mm³ and {point.pressure:.4g} MPa"
+    at = f"{point.volume:.6g} mm³ and {figures(point.pressure)} MPa"
     if passed.kind == "bifurcation" and point.stable_at_volume is False:
         return f"; from {at} on it is unstable at a held volume too: another branch begins there"
     return f"; at {at} it turns onto another branch"
