@@ -142,12 +142,22 @@ class Contacts:
     """
 
     def __init__(
-        self, problem: Problem, numbering: Numbering, plane: MovingPlane | None, pattern: Pattern
+        self,
+        problem: Problem,
+        numbering: Numbering,
+        plane: MovingPlane | None,
+        pattern: Pattern,
+        start: Reals,
     ) -> None:
+        """``start`` (n, 3): displacements at the start; a later stage may begin in contact.
+
+        Raises ``SolverError`` if a surface of the undeformed body lies beyond its plane.
+        """
         self._plane = plane
         self._pattern = pattern
         self._pairs = tuple(ContactPair.of(problem, each, numbering) for each in problem.contacts)
-        _check_apart(problem, self._pairs)
+        if not start.any():
+            _check_apart(problem, self._pairs)
 
     @contextmanager
     def softened(self) -> Iterator[None]:

@@ -30,6 +30,7 @@ from solver.nonlinear.checkpoint import Checkpoint, Effort
 from solver.nonlinear.events import Event, Kind, Listener
 from solver.nonlinear.kinematics import Kinematics
 from solver.nonlinear.linear_system import LinearSystem
+from solver.nonlinear.loading import Loading
 from solver.nonlinear.options import SolverOptions
 from solver.problem.problem import Problem
 from solver.results.sharp_edges import trusted_nodes
@@ -45,6 +46,14 @@ EDGE_SHARE = 0.05
 IMBALANCE = 1e-3
 """Largest relative residual after a reused factorization; more is the error of a soft mode."""
 
+PRESSURE_SHARE = 100.0
+"""Bound of the correction of the hydrostatic pressure, relative to the material's initial shear
+modulus and the largest pressure, over that of displacements, in body diagonals. A correction's
+strain is its displacement over a length of the mesh: in bellows the ratio is between 2 and 70."""
+
+PRESSURE_ROUNDING = 1e-9
+"""Relative corrections of the hydrostatic pressure below this one always count as small."""
+
 DIVERGED = 1.0
 """Corrections of so many body diagonals count as divergence."""
 
@@ -57,7 +66,8 @@ class NoCorrection(Exception):
 class Correction:
     """One correction of ``state``, where ``equilibrium`` holds: by ``increment``, to ``moved``.
 
-    ``size``: the largest node's, mm.
+    ``size``: the largest node's, mm; ``pressure_size``: the largest one of the hydrostatic
+    pressure, relative to the initial shear modulus and the pressure itself.
     """
 
     state: State
@@ -65,6 +75,7 @@ class Correction:
     increment: State
     moved: State
     size: float
+    pressure_size: float
 
 
 @dataclass(frozen=True)
@@ -85,28 +96,35 @@ class Attempt:
     guarded: bool = False
 
 
+def pressure_bound(tolerance: float) -> float:
+    """Bound of a small relative correction of the pressure, for one of displacements."""
+    return max(PRESSURE_SHARE * tolerance, PRESSURE_ROUNDING)
+
+
 @dataclass
 class Newton:
-    """Newton's method on one problem at fractions (``load``) of its loads and one ``pressure``.
+    """Newton's method on one problem at fractions (``load``) of a ``loading``.
 
     Holds what is computed once per mesh, the last factorization, and counts of the effort.
     """
 
     problem: Problem
-    pressure: float
+    loading: Loading
     options: SolverOptions
     listener: Listener | None = None
     effort: Effort = field(default_factory=Effort)
 
     def __post_init__(self) -> None:
-        if self.pressure and not self.problem.pressurised:
+        if self.loading.pressures[1] and not self.problem.pressurised:
             raise SolverError(
-                f"pressure = {self.pressure:g} MPa: the problem has no pressurised surface."
+                f"pressure = {self.loading.pressures[1]:g} MPa: the problem has no pressurised "
+                "surface."
             )
         mesh = self.problem.mesh
-        self.assembly = Assembly(self.problem)
+        self.assembly = Assembly(self.problem, self.loading.start.displacement)
         self.system = LinearSystem(self.assembly, self.options.linear_solver)
-        self.kinematics = Kinematics.of(self.problem, self.assembly.plane)
+        self.kinematics = Kinematics.of(self.problem, self.assembly.plane, self.loading)
+        self.fading_force = self._fading_force()
         self.slender = self.problem.axis is not None and self.assembly.plane is None
         self.trusted = trusted_nodes(self.problem)
         self.loose_tolerance = min(self.options.loose_tolerance, EDGE_SHARE * mesh.edge / mesh.size)
@@ -156,6 +174,9 @@ class Newton:
     def iterate(self, guess: State, load: float, tolerance: float, onward: bool = False) -> Attempt:
         """Newton iterations at a fixed load from ``guess``, until a correction is small.
 
+        Both fields must be: where supports prescribe how a body deforms, displacements are right at
+        once while a nonlinear volumetric law still leaves the pressure far off.
+
         Once corrections decrease fast, the tangent is that of the state itself and its
         factorization is reused; or, if the path continues ``onward``, the iterations end with a
         small correction by such a tangent. With contact the last correction must not exceed the
@@ -174,10 +195,12 @@ class Newton:
                 found = self._correction(state, load, reuse, iteration)
             except NoCorrection as reason:
                 return Attempt(guess, iteration, str(reason), touched=touched)
-            depth = self.assembly.contacts.depth(found.moved, load)
+            depth = self.assembly.contacts.depth(found.moved, self.loading.share(load))
             touched |= bool(np.isfinite(depth))
             small = found.size <= min(tolerance * self.problem.mesh.size, depth)
-            fast = found.size < self.options.reuse * previous
+            small &= found.pressure_size <= pressure_bound(tolerance)
+            distance = self.distance(found)
+            fast = distance < self.options.reuse * previous
             if small and (own or not onward):
                 attempt = self._accepted(found, load, iteration, guess, onward)
                 if onward or attempt.failure or not reuse or attempt.imbalance <= IMBALANCE:
@@ -185,7 +208,7 @@ class Newton:
                 fast = False
             reuse = fast and own and not onward
             state = found.moved if small or fast else self._extrapolated(found)
-            previous = found.size
+            previous = distance
         failure = f"Newton did not converge in {iteration} iterations"
         return Attempt(guess, iteration, failure, touched=touched)
 
@@ -206,7 +229,18 @@ class Newton:
         moved = self.kinematics.advanced(state, increment)
         self.effort.iterations += 1
         self.notify("iteration", load, moved, iteration, size)
-        return Correction(state, equilibrium, increment, moved, size)
+        pressure_size = self.pressure_size(increment, moved)
+        return Correction(state, equilibrium, increment, moved, size, pressure_size)
+
+    def distance(self, found: Correction) -> float:
+        """Size of a correction in both fields, the larger one, in body diagonals."""
+        return max(found.size / self.problem.mesh.size, found.pressure_size / PRESSURE_SHARE)
+
+    def pressure_size(self, increment: State, moved: State) -> float:
+        """Largest hydrostatic pressure of an increment, relative to its scale in a state."""
+        changes = np.abs(increment.hydrostatic_pressure).max(initial=0.0)
+        scale = np.abs(moved.hydrostatic_pressure).max(initial=0.0)
+        return float(changes / (self.problem.material.shear_modulus + scale))
 
     def _accepted(
         self, found: Correction, load: float, iterations: int, guess: State, onward: bool
@@ -247,7 +281,29 @@ class Newton:
 
     def evaluate(self, state: State, load: float, tangent: bool = True) -> Equilibrium:
         """Residual and tangent at a state under a fraction of the load."""
-        return self.assembly.evaluate(state, load * self.pressure, tangent, load)
+        loading, share = self.loading, self.loading.share(load)
+        found = self.assembly.evaluate(state, loading.pressure(load), tangent, share)
+        if not len(self.fading_force):
+            return found
+        return replace(found, residual=found.residual - (1 - share) * self.fading_force)
+
+    def remaining_force(self, load: float) -> Reals:
+        """Nodal forces (n, 3) of the stage before that are left at a load, N; (0, 3) if none."""
+        share = 1 - self.loading.share(load)
+        if not len(self.fading_force) or share == 0:
+            return np.zeros((0, 3))
+        return share * self.assembly.numbering.expand(self.fading_force)[0]
+
+    def _fading_force(self) -> Reals:
+        """What keeps the start in equilibrium besides this path's loads (m,), N; empty if nothing.
+
+        Dead loads and other pressures of the stage before, reactions of supports that are gone: as
+        dead forces they fade as the load grows, and at the whole load nothing is left of them.
+        """
+        if not len(self.loading.supports_from):
+            return np.zeros(0)
+        start, pressure = self.loading.start, self.loading.pressures[0]
+        return self.assembly.evaluate(start, pressure, tangent=False, load=0.0).residual
 
     def factorize(self, equilibrium: Equilibrium) -> None:
         """Factorize a tangent and count it. Raises ``SingularMatrix``."""
@@ -269,10 +325,14 @@ class Newton:
 
         The part of prescribed motions is a difference quotient: only predictors use it.
         """
-        rate: Reals = self.pressure * equilibrium.force - self.assembly.dead_force
-        if self.assembly.contacts.move:
+        loading = self.loading
+        fixed_forces = self.assembly.dead_force
+        if len(self.fading_force):
+            fixed_forces = fixed_forces - self.fading_force
+        rate: Reals = loading.pressure_rate * equilibrium.force - loading.share_rate * fixed_forces
+        if self.assembly.contacts.move and not loading.constant:
             rate = rate + self.assembly.contacts.rate(state, load)
-        if not self.problem.supports.prescribed:
+        if not self.problem.supports.prescribed or loading.constant:
             return rate
         step = DIFFERENCE if load < 0.5 else -DIFFERENCE
         there = self.kinematics.with_supports(state, load + step)
@@ -306,7 +366,7 @@ class Newton:
         """Describe an equilibrium."""
         stress = von_mises(deviatoric_at_nodes(self.problem, state.displacement))
         return PathPoint(
-            pressure=load * self.pressure,
+            pressure=self.loading.pressure(load),
             rotation=self.kinematics.rotation(state),
             iterations=iterations,
             max_von_mises=float(stress[self.trusted].max(initial=0.0)),

@@ -54,6 +54,9 @@ class Contact:
 class RigidPlane:
     """Frictionless contact of a surface with a rigid plane, which stands still or moves.
 
+    In a later stage a plane that has moved begins at its new ``point``. What a plane that is gone,
+    or stands elsewhere, has exerted until then fades with the load.
+
     Attributes:
         surface: name of the surface.
         penetration: depth beyond the plane, mm, at a contact pressure equal to the material's

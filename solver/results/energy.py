@@ -13,7 +13,9 @@ import numpy as np
 
 from solver.assembly.assembly import solid
 from solver.assembly.contact import contact_pairs
-from solver.assembly.swept_volume import check_rim, swept_volume
+from solver.assembly.free_rim import free_edges
+from solver.assembly.swept_volume import swept_volume
+from solver.errors import SolverError
 from solver.kernels.assembly import total_energy
 from solver.problem.loads import couple, nodal_forces
 from solver.problem.springs import stiffness_matrix
@@ -84,22 +86,30 @@ def potential(solution: Solution) -> Potential:
         strain=strain_energy(solution),
         springs=0.5 * float(displacement @ (stiffness @ displacement)),
         contacts=float(sum(pair.energy(state, load) for pair in contact_pairs(problem))),
-        loads=0.0 - _pressure_work(solution) - load * _dead_work(solution),
+        loads=0.0 - _pressure_work(solution) - _dead_work(solution),
     )
 
 
 def _pressure_work(solution: Solution) -> float:
     """Work of the present pressure on the way from the undeformed body, N mm."""
+    problem, displacement = solution.problem, solution.displacement
     if not solution.pressure:
         return 0.0
-    check_rim(solution.problem, solution.displacement)
-    still = np.zeros_like(solution.displacement)
-    swept = swept_volume(solution.problem, still, solution.displacement)
+    if len(free := free_edges(problem, displacement)):
+        where = ", ".join(f"{x:.4g}" for x in problem.mesh.nodes[free[0, 2]])
+        raise SolverError(
+            f"potential: the pressurised surfaces have a free rim, at ({where}) mm, so that the "
+            "work of the pressure depends on the way and it has no potential."
+        )
+    swept = swept_volume(problem, np.zeros_like(displacement), displacement)
     return solution.pressure * float(swept.sum())
 
 
 def _dead_work(solution: Solution) -> float:
-    """Work of the whole dead loads on the way from the undeformed body, N mm."""
-    loads, mesh = solution.problem.loads, solution.problem.mesh
-    work = float((nodal_forces(mesh, loads) * solution.displacement).sum())
-    return work + couple(loads) * solution.plane[0]
+    """Work of the present dead loads on the way from the undeformed body, N mm."""
+    loads, load = solution.problem.loads, solution.load
+    forces = load * nodal_forces(solution.problem.mesh, loads)
+    if len(solution.remaining_force):
+        forces += solution.remaining_force
+    work = float((forces * solution.displacement).sum())
+    return work + load * couple(loads) * solution.plane[0]

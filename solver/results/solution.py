@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal, TypeAlias
 
 import numpy as np
@@ -31,6 +31,8 @@ class PathPoint:
         volume: inside the pressurised surfaces, mm^3, see ``enclosed_volume``.
         load: fraction of the whole load.
         stable: whether it is stable at constant load; None where the linear solver cannot tell.
+        stable_at_volume: whether it is stable while its volume is held, on a path of ``inflate``;
+            else, and where the linear solver cannot tell, None.
     """
 
     pressure: float
@@ -40,6 +42,7 @@ class PathPoint:
     volume: float
     load: float = 1.0
     stable: bool | None = None
+    stable_at_volume: bool | None = None
 
 
 @dataclass(frozen=True)
@@ -69,8 +72,16 @@ class Solution:
         plane: tilt (rad) and shift (mm) of the moving plane, zeros without one.
         load: fraction of the whole load.
         limit: pressure at the limit point that ended the path, MPa (fraction of the load where
-            there is no pressure); None without one.
+            there is no pressure), or of ``inflate`` the one beyond which the path is unstable at
+            constant pressure; None without one.
         stopped_by: what ended the path; empty if ``converged``.
+        at_stops: the equilibria at the stops that were asked for, as far as they were reached, in
+            ascending order of the load.
+        remaining_force: of the stage before, as dead forces on the nodes, at an equilibrium short
+            of the whole load.
+
+            *Shape:* (n, 3) in N; (0, 3) if there is none.
+        bifurcations: points on a path of ``inflate`` at which another branch begins.
     """
 
     problem: Problem
@@ -91,11 +102,19 @@ class Solution:
     load: float = 1.0
     limit: float | None = None
     stopped_by: StopKind = ""
+    at_stops: tuple[Solution, ...] = ()
+    remaining_force: Reals = field(default_factory=lambda: np.zeros((0, 3)))
+    bifurcations: tuple[PathPoint, ...] = ()
 
     @property
     def stable(self) -> bool | None:
         """Whether the state is stable at constant load; None if unknown."""
         return self.path[-1].stable
+
+    @property
+    def stable_at_volume(self) -> bool | None:
+        """Whether a state of ``inflate`` is stable while its volume is held; None if unknown."""
+        return self.path[-1].stable_at_volume
 
     @property
     def state(self) -> State:
@@ -119,7 +138,7 @@ def cavity_volume(mesh: Mesh, displacement: Reals, surfaces: tuple[str, ...]) ->
         surfaces: names of the surfaces around the cavity; see ``enclosed_volume`` for open ones.
 
     Returns:
-        mm^3.
+        mm^3; negative for surfaces that face outwards, around the body.
 
     Raises:
         SolverError: an unknown surface.

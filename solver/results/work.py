@@ -27,7 +27,7 @@ class Work:
 
     Attributes:
         pressure: by the pressure, N mm.
-        loads: by dead loads, N mm.
+        loads: by dead loads, and by what is left of a stage before, N mm.
         supports: by supports that are led, N mm.
         planes: by rigid planes that move, N mm.
     """
@@ -50,9 +50,9 @@ def work(solutions: Sequence[Solution]) -> Work:
     distance. The total is the energy that is stored at the last one (``Potential.stored``).
 
     Args:
-        solutions: equilibria of one mesh in the order of the path, for instance at stops. Loads,
-            supports and contacts may differ from each to the next; rigid planes that stand in the
-            same place of ``Problem.contacts`` are the same.
+        solutions: equilibria of one mesh in the order of the path, such as
+            ``(*solution.at_stops, solution)``, also of several stages. Rigid planes that stand in
+            the same place of ``Problem.contacts`` are the same.
 
     Returns:
         The work; of a symmetric part its own share.
@@ -77,7 +77,7 @@ class _Station:
     """What does work at a state.
 
     ``dead`` and ``supports``: nodal forces (n, 3), N; ``planes``: forces (k, 3) of rigid planes and
-    their displacements; ``couple``: that on the moving plane, N mm, and its tilt.
+    their places; ``couple``: that on the moving plane, N mm, and its tilt.
     """
 
     problem: Problem
@@ -91,8 +91,11 @@ class _Station:
     @staticmethod
     def at_rest(problem: Problem) -> _Station:
         """The undeformed body."""
-        none, planes = np.zeros(problem.mesh.nodes.shape), np.zeros((len(problem.contacts), 3))
-        return _Station(problem, 0.0, none, none, none, (planes, planes), (0.0, 0.0))
+        none, planes = (
+            np.zeros(problem.mesh.nodes.shape),
+            _planes(problem, State.zero(problem), 0.0),
+        )
+        return _Station(problem, 0.0, none, none, none, planes, (0.0, 0.0))
 
     @staticmethod
     def of(solution: Solution) -> _Station:
@@ -102,7 +105,7 @@ class _Station:
             problem=problem,
             pressure=solution.pressure,
             displacement=state.displacement,
-            dead=load * nodal_forces(problem.mesh, problem.loads),
+            dead=load * nodal_forces(problem.mesh, problem.loads) + _remaining(solution),
             supports=_support_forces(solution),
             planes=_planes(problem, state, load),
             couple=(load * couple(problem.loads), float(state.plane[0])),
@@ -115,25 +118,32 @@ def _support_forces(solution: Solution) -> Reals:
     if problem.moving_plane is not None:
         return np.zeros_like(solution.displacement)
     forces = unbalanced_forces(problem, solution.state, solution.pressure, solution.load)
+    forces -= _remaining(solution)
     return np.where(fixed_displacements(problem.mesh, problem.supports), forces, 0.0)
 
 
+def _remaining(solution: Solution) -> Reals:
+    """Nodal forces (n, 3) that are left of the stage before, N."""
+    forces = solution.remaining_force
+    return forces if len(forces) else np.zeros_like(solution.displacement)
+
+
 def _planes(problem: Problem, state: State, load: float) -> tuple[Reals, Reals]:
-    """Forces (k, 3) of rigid planes on the body, N, and displacements (k, 3), zero for others."""
-    forces, displacements = np.zeros((2, len(problem.contacts), 3))
+    """Forces (k, 3) of rigid planes on the body, N, and the points nearest to the origin, mm."""
+    forces, points = np.zeros((2, len(problem.contacts), 3))
     for number, pair in enumerate(contact_pairs(problem)):
         if isinstance(pair.contact, RigidPlane):
             forces[number] = pair.forces(state, load).sum(axis=0)
-            displacements[number] = pair.contact.displacement(load)
-    return forces, displacements
+            *normal, constant = pair.contact.equation(load)
+            points[number] = -constant * np.array(normal)
+    return forces, points
 
 
 def _parts(a: _Station, b: _Station) -> Reals:
     """Work (4,) between two states in the order of ``Work``, N mm."""
     moved = b.displacement - a.displacement
-    pressure = np.array([a.pressure, b.pressure]) @ swept_volume(
-        b.problem, a.displacement, b.displacement
-    )
+    before, after = (swept_volume(s.problem, a.displacement, b.displacement) for s in (a, b))
+    pressure = a.pressure * before[0] + b.pressure * after[1]
     loads = (a.dead + b.dead) * moved
     couples = (a.couple[0] + b.couple[0]) * (b.couple[1] - a.couple[1])
     supports = (a.supports + b.supports) * moved

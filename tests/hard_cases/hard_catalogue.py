@@ -16,6 +16,8 @@ FAMILIES = (
     "hard_contacts",
     "hard_inputs",
     "hard_walks",
+    "hard_limits",
+    "hard_volumes",
     "hard_sameness",
     "hard_designs",
 )

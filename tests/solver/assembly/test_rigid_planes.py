@@ -31,6 +31,7 @@ from solver import (
 )
 from solver.assembly.assembly import Assembly
 from solver.assembly.state import State
+from solver.nonlinear.loading import Loading
 from solver.nonlinear.newton import Newton
 
 Array = NDArray[np.float64]
@@ -99,7 +100,8 @@ def test_residual_and_tangent_are_derivatives_of_the_energy_at_each_load(box: Me
 
 def test_the_rate_of_the_residual_knows_that_planes_move(box: Meshes) -> None:
     problem = oblique(box((2, 1, 1))).problem
-    newton = Newton(replace(problem, loads=(Traction("z1", (0, 0, 0.1)),)), 0.0, EXACT)
+    problem = replace(problem, loads=(Traction("z1", (0, 0, 0.1)),))
+    newton = Newton(problem, Loading.of(problem, 0.0), EXACT)
     state, load = State.zero(problem), 0.7
 
     def residual(step: float) -> Array:
@@ -275,7 +277,32 @@ def test_a_cell_takes_no_rigid_plane(cell: Mesh) -> None:
         Problem(cell, RUBBER, middles, ("cavity",), moving_plane="x1", contacts=(plane,))
 
 
-def test_volume_control_takes_no_plane_that_moves_with_the_load(box: Meshes) -> None:
-    problem = Problem(box((1, 1, 1)), RUBBER, THIRDS, ("y1",), contacts=(lid(0.01),))
-    with pytest.raises(ValueError, match="only load must be the pressure"):
-        inflate(problem, 1.0)
+def test_volume_control_leads_planes_first(box: Meshes) -> None:
+    """A sheet against a plate that has come down: the same state by pressure and by volume."""
+    mesh = renamed(box((3, 3, 1), (5.0, 5.0, 0.5)), {"x1": "rim", "y1": "rim"})
+    supports = Supports(("rim",), symmetry={"x0": 0, "y0": 1})
+    plate = RigidPlane("z1", 0.02, (0, 0, -1), (0, 0, 1.5), lambda load: (0, 0, -0.5 * load))
+    problem = Problem(mesh, RUBBER, supports, ("z0",), contacts=(plate,))
+    blown = solve(problem, 0.2, EXACT)
+    same = inflate(problem, blown.path[-1].volume, EXACT)
+    assert blown.converged and same.converged
+    assert same.pressure == pytest.approx(0.2, rel=1e-6)
+    assert same.displacement == pytest.approx(blown.displacement, abs=1e-6)
+    assert contact_forces(same)[0].force == pytest.approx(contact_forces(blown)[0].force, rel=1e-5)
+
+
+def test_a_stage_goes_on_where_the_plane_stands(box: Meshes) -> None:
+    """Pressed in two stages, pulled while pressed, and let go again."""
+    half = lid(1e-3, travel=0.25)
+    second = replace(half, point=(0, 0, 0.85))
+    problem = Problem(box((1, 1, 1)), RUBBER, THIRDS, contacts=(half,))
+    first = solve(problem, options=EXACT)
+    onward = solve(replace(problem, contacts=(second,)), options=EXACT, after=first, stops=(0.5,))
+    at_once = solve(replace(problem, contacts=(lid(1e-3),)), options=EXACT)
+    assert onward.converged
+    assert onward.displacement == pytest.approx(at_once.displacement, abs=1e-8)
+    assert contact_forces(onward)[0].force == pytest.approx(contact_forces(at_once)[0].force, 1e-7)
+    pair = (contact_forces(each)[0].force[2] for each in (onward.at_stops[0], onward))
+    assert 0 > next(pair) > next(pair)
+    gone = solve(replace(problem, contacts=()), options=EXACT, after=first)
+    assert gone.converged and abs(gone.displacement).max() < 1e-7

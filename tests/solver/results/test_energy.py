@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 from solver import (
     BodyForce,
     Couple,
-    Event,
     FoundationSpring,
     Mesh,
     NodeSpring,
@@ -41,27 +40,10 @@ EXACT = SolverOptions(tolerance=1e-10, loose_tolerance=1e-10, maximum_iterations
 
 def at_fractions(problem: Problem, pressure: float, steps: int) -> tuple[Solution, ...]:
     """Equilibria at equal steps of the load up to the whole one."""
-    reached = {}
-
-    def keep(event: Event) -> None:
-        if event.checkpoint is not None:
-            reached[round(event.load * steps, 6)] = event.checkpoint.reached
-
-    shares = np.arange(1, steps + 1) / steps
-    stops = [share * (pressure or 1.0) for share in shares[:-1]]
-    last = solve(problem, pressure, EXACT, listener=keep, stops=stops)
+    stops = np.arange(1, steps) / steps * (pressure or 1.0)
+    last = solve(problem, pressure, EXACT, stops=stops)
     assert last.converged
-    return tuple(
-        replace(
-            last,
-            displacement=reached[number].displacement,
-            hydrostatic_pressure=reached[number].hydrostatic_pressure,
-            plane=tuple(reached[number].plane),
-            pressure=pressure * number / steps,
-            load=number / steps,
-        )
-        for number in range(1, steps + 1)
-    )
+    return (*last.at_stops, last)
 
 
 @pytest.mark.parametrize("bulk_modulus", [np.inf, 5.0])
@@ -199,6 +181,30 @@ def test_the_work_at_constant_pressure_needs_no_small_steps(box: Meshes) -> None
     step = work((first, second)).pressure - work((first,)).pressure
     change = potential(second).loads - potential(first).loads
     assert step == pytest.approx(-change, rel=1e-12)
+
+
+def test_the_work_of_stages_is_what_is_stored(box: Meshes) -> None:
+    """Led and pressed, then under a pressure while the support lets go and the plane moves on."""
+    mesh, errors = box((2, 1, 1), (2.0, 1.0, 1.0)), []
+    ends = Supports(
+        ("x0",), prescribed={"x1": lambda at, load: load * np.array([0.6, 0, 0]) + 0 * at}
+    )
+    plane = RigidPlane("z1", 0.3, (0, 0, -1), (0, 0, 1), lambda load: (0, 0, -0.1 * load))
+    onward = replace(plane, point=(0, 0, 0.9))
+    for steps in (4, 8):
+        stops = np.arange(1, steps) / steps
+        first = solve(Problem(mesh, RUBBER, ends, contacts=(plane,)), options=EXACT, stops=stops)
+        second = solve(
+            Problem(mesh, RUBBER, Supports(("x0",)), ("z0",), contacts=(onward,)),
+            0.1, EXACT, stops=0.1 * stops, after=first,
+        )  # fmt: skip
+        assert first.converged and second.converged
+        done = work((*first.at_stops, first, *second.at_stops, second))
+        stored = potential(replace(second, pressure=0.0)).stored
+        errors.append(done.total / stored - 1)
+    assert min(abs(part) for part in (done.pressure, done.loads, done.supports, done.planes)) > 1e-3
+    assert abs(errors[1]) < 0.03
+    assert errors[0] / errors[1] == pytest.approx(4.0, rel=0.2)
 
 
 def test_work_needs_a_path_on_one_mesh(box: Meshes) -> None:
