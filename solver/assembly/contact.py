@@ -57,6 +57,12 @@ SOFTENING = 30.0
 INITIAL_CROSSING = 1e-6
 """Tolerance for rounding of surfaces beyond their planes at no load, in body diagonals."""
 
+RESOLUTION = 1e3
+"""Largest last correction at a rigid plane, in penetrations, over the tolerance of the solve."""
+
+ROUNDING = 1e-11
+"""Corrections that are small in any case, in body diagonals."""
+
 DIFFERENCE = 1e-6
 """Fraction of the load between the two positions of a difference quotient."""
 
@@ -155,6 +161,7 @@ class Contacts:
         """
         self._plane = plane
         self._pattern = pattern
+        self._size = problem.mesh.size
         self._pairs = tuple(ContactPair.of(problem, each, numbering) for each in problem.contacts)
         if not start.any():
             _check_apart(problem, self._pairs)
@@ -190,10 +197,22 @@ class Contacts:
         """Energy of all contacts, N mm."""
         return float(sum(pair.energy(state, load) for pair in self._pairs))
 
-    def depth(self, state: State, load: float) -> float:
-        """Least penetration (mm) of the active contacts; infinite without any."""
-        active = (pair for pair in self._pairs if pair.touches(state, load))
-        return min((pair.contact.penetration for pair in active), default=np.inf)
+    def depth(self, state: State, load: float, tolerance: float) -> float:
+        """Bound of a last correction by the active contacts, mm; infinite without any.
+
+        The penetration; at rigid planes, whose force is asked for, a share of it in proportion to
+        the ``tolerance``: a correction by the whole penetration changes the pressure by the shear
+        modulus.
+        """
+        active = (pair.contact for pair in self._pairs if pair.touches(state, load))
+        return min((self._bound(contact, tolerance) for contact in active), default=np.inf)
+
+    def _bound(self, contact: ContactPlane, tolerance: float) -> float:
+        """Bound of a last correction by one contact, mm."""
+        if not isinstance(contact, RigidPlane):
+            return contact.penetration
+        share = min(1.0, RESOLUTION * tolerance)
+        return max(share * contact.penetration, ROUNDING * self._size)
 
     def add(
         self, state: State, tangent: bool, residual: Reals, values: Reals, load: float = 0.0

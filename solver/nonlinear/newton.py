@@ -180,7 +180,7 @@ class Newton:
         Once corrections decrease fast, the tangent is that of the state itself and its
         factorization is reused; or, if the path continues ``onward``, the iterations end with a
         small correction by such a tangent. With contact the last correction must not exceed the
-        contact's penetration, and twice as many iterations are allowed, for the set of points in
+        contacts' ``depth``, and twice as many iterations are allowed, for the set of points in
         contact to converge.
         """
         state, previous = guess, 0.0
@@ -195,7 +195,8 @@ class Newton:
                 found = self._correction(state, load, reuse, iteration)
             except NoCorrection as reason:
                 return Attempt(guess, iteration, str(reason), touched=touched)
-            depth = self.assembly.contacts.depth(found.moved, self.loading.share(load))
+            share = self.loading.share(load)
+            depth = self.assembly.contacts.depth(found.moved, share, tolerance)
             touched |= bool(np.isfinite(depth))
             small = found.size <= min(tolerance * self.problem.mesh.size, depth)
             small &= found.pressure_size <= pressure_bound(tolerance)

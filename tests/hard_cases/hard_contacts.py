@@ -178,8 +178,8 @@ CASES = (
     HardCase(
         "A plate that yields ever less",
         "a penalty without bound spoils the matrix, or the set in contact never settles",
-        "Newton passes through a softer plate where need be; the last correction is below the "
-        "penetration",
+        "Newton passes through a softer plate where need be; the last correction is a small "
+        "share of the penetration",
         ever_stiffer,
     ),
     HardCase(

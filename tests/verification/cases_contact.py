@@ -67,7 +67,8 @@ def pressed(distance: float) -> tuple[ContactForce, int]:
 
     mesh = ball(DIVISIONS)
     plate = RigidPlane("outside", 0.01 * distance, (0, 0, -1), (0, 0, RADIUS + LIFT), motion)
-    solution = solve(Problem(mesh, RUBBER, PLANES, contacts=(plate,)))
+    problem = Problem(mesh, RUBBER, PLANES, contacts=(plate,))
+    solution = solve(problem, options=SolverOptions(tolerance=1e-8))
     assert solution.converged, solution.message
     return contact_forces(solution)[0], len(mesh.tets)
 

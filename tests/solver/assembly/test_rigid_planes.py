@@ -150,6 +150,21 @@ def test_a_plane_that_stands_still_is_a_contact_with_a_plane_of_symmetry(box: Me
     assert force[2] < -0.1 and force == pytest.approx(same, abs=1e-12)
 
 
+@pytest.mark.parametrize("travel", [0.1, 0.2, 0.3])
+def test_the_default_tolerance_settles_the_force(sphere: Meshes, travel: float) -> None:
+    """Though a correction of a tenth of the penetration changes a pressure by a tenth of mu."""
+    mesh, forces = sphere(8.0, 10.0, 1, 5), []
+    plane = RigidPlane(
+        "outside", 0.01 * travel, (0, 0, -1), (0, 0, 10.05),
+        lambda load: (0, 0, -load * (travel + 0.05)),
+    )  # fmt: skip
+    for options in (SolverOptions(), EXACT):
+        solution = solve(Problem(mesh, RUBBER, THIRDS, contacts=(plane,)), options=options)
+        assert solution.converged
+        forces.append(contact_forces(solution)[0].force[2])
+    assert forces[0] == pytest.approx(forces[1], rel=1e-3)
+
+
 def test_a_turned_problem_has_the_turned_answer(box: Meshes) -> None:
     mesh, turn = box((2, 1, 1), (2, 1, 1)), Rotation.from_rotvec((0.7, -1.1, 0.4)).as_matrix()
     normal, point, travel = np.array([-3.0, 0, 2]), np.array([2.0, 0, 0]), np.array([-0.6, 0, 0])
