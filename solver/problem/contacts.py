@@ -103,8 +103,8 @@ class RigidPlane:
     @property
     def unit_normal(self) -> Reals:
         """The normal with length 1, (3,)."""
-        normal = np.array(self.normal) / np.abs(self.normal).max()  # squares neither over- nor
-        unit: Reals = normal / np.linalg.norm(normal)  # underflow
+        normal = np.array(self.normal) / np.abs(self.normal).max()  # so that no square overflows
+        unit: Reals = normal / np.linalg.norm(normal)
         return unit
 
     def displacement(self, load: float) -> Reals:
