@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from solver.problem.loads import BodyForce, Couple, PointForce, Traction
     from solver.problem.problem import Contact, Problem, SlenderAxis
     from solver.problem.supports import Supports
+    from solver.results.folds import Folds, folded_elements
     from solver.results.reactions import Reaction, reaction
     from solver.results.solution import PathPoint, Solution, cavity_volume
     from solver.results.stress import Peak, nodal_cauchy, nodal_von_mises, peak_von_mises
@@ -37,6 +38,7 @@ __all__ = [
     "Contact",
     "Couple",
     "Event",
+    "Folds",
     "Limit",
     "Mesh",
     "Ogden",
@@ -52,6 +54,7 @@ __all__ = [
     "Trace",
     "Traction",
     "cavity_volume",
+    "folded_elements",
     "inflate",
     "nodal_cauchy",
     "nodal_von_mises",
@@ -80,6 +83,7 @@ __getattr__ = imported_when_asked_for(
         "paths.volume_control": ("inflate",),
         "problem.loads": ("BodyForce", "Couple", "PointForce", "Traction"),
         "problem.problem": ("Contact", "Problem", "SlenderAxis"),
+        "results.folds": ("Folds", "folded_elements"),
         "results.reactions": ("Reaction", "reaction"),
         "problem.supports": ("Supports",),
         "results.solution": ("PathPoint", "Solution", "cavity_volume"),
