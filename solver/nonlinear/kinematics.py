@@ -12,13 +12,14 @@ from solver.assembly.moving_plane import MovingPlane
 from solver.assembly.state import State
 from solver.errors import SolverError
 from solver.nonlinear.finite_motion import Motion, motion_along, rotation
+from solver.nonlinear.loading import Loading
 from solver.problem.problem import Problem
 from solver.problem.supports import fixed_displacements, given_displacements
 
 
 @dataclass(frozen=True)
 class Kinematics:
-    """Motions of a ``problem`` with its moving ``plane``, if it has one.
+    """Motions of a ``problem`` under a ``loading``, with its moving ``plane``, if it has one.
 
     ``motion`` applies increments; ``held`` (n, 3): displacements that are given.
     """
@@ -26,14 +27,15 @@ class Kinematics:
     problem: Problem
     plane: MovingPlane | None
     motion: Motion
+    loading: Loading
     held: NDArray[np.bool_]
 
     @staticmethod
-    def of(problem: Problem, plane: MovingPlane | None) -> Kinematics:
+    def of(problem: Problem, plane: MovingPlane | None, loading: Loading) -> Kinematics:
         """Of a problem: increments are finite rotations along its axis, or sums without one."""
         motion = motion_along(problem.mesh, problem.axis)
         held = fixed_displacements(problem.mesh, problem.supports, problem.moving_plane)
-        return Kinematics(problem, plane, motion, held)
+        return Kinematics(problem, plane, motion, loading, held)
 
     def linear(self, state: State, increment: State) -> Reals:
         """Displacement (n, 3) of an increment to first order, mm."""
@@ -79,13 +81,14 @@ class Kinematics:
         Raises ``SolverError`` if a prescribed motion frees other components than at the whole load.
         """
         problem = self.problem
-        given = given_displacements(problem.mesh, problem.supports, load, problem.moving_plane)
+        share = self.loading.share(load)
+        given = given_displacements(problem.mesh, problem.supports, share, problem.moving_plane)
         if problem.supports.prescribed and (np.isnan(given) == self.held).any():
             raise SolverError(
                 f"supports: a prescribed motion is NaN at {100 * load:.4g} % of the load in other "
                 "components than at the whole load."
             )
-        return given
+        return self.loading.held(given)
 
     def rotation(self, state: State) -> float:
         """Rotation of the tip, or of the moving plane, degrees."""

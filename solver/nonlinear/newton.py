@@ -30,6 +30,7 @@ from solver.nonlinear.checkpoint import Checkpoint, Effort
 from solver.nonlinear.events import Event, Kind, Listener
 from solver.nonlinear.kinematics import Kinematics
 from solver.nonlinear.linear_system import LinearSystem
+from solver.nonlinear.loading import Loading
 from solver.nonlinear.options import SolverOptions
 from solver.problem.problem import Problem
 from solver.results.sharp_edges import trusted_nodes
@@ -87,26 +88,28 @@ class Attempt:
 
 @dataclass
 class Newton:
-    """Newton's method on one problem at fractions (``load``) of its loads and one ``pressure``.
+    """Newton's method on one problem at fractions (``load``) of a ``loading``.
 
     Holds what is computed once per mesh, the last factorization, and counts of the effort.
     """
 
     problem: Problem
-    pressure: float
+    loading: Loading
     options: SolverOptions
     listener: Listener | None = None
     effort: Effort = field(default_factory=Effort)
 
     def __post_init__(self) -> None:
-        if self.pressure and not self.problem.pressurised:
+        if self.loading.pressures[1] and not self.problem.pressurised:
             raise SolverError(
-                f"pressure = {self.pressure:g} MPa: the problem has no pressurised surface."
+                f"pressure = {self.loading.pressures[1]:g} MPa: the problem has no pressurised "
+                "surface."
             )
         mesh = self.problem.mesh
         self.assembly = Assembly(self.problem)
         self.system = LinearSystem(self.assembly, self.options.linear_solver)
-        self.kinematics = Kinematics.of(self.problem, self.assembly.plane)
+        self.kinematics = Kinematics.of(self.problem, self.assembly.plane, self.loading)
+        self.fading_force = self._fading_force()
         self.slender = self.problem.axis is not None and self.assembly.plane is None
         self.trusted = trusted_nodes(self.problem)
         self.loose_tolerance = min(self.options.loose_tolerance, EDGE_SHARE * mesh.edge / mesh.size)
@@ -245,7 +248,29 @@ class Newton:
 
     def evaluate(self, state: State, load: float, tangent: bool = True) -> Equilibrium:
         """Residual and tangent at a state under a fraction of the load."""
-        return self.assembly.evaluate(state, load * self.pressure, tangent, load)
+        loading, share = self.loading, self.loading.share(load)
+        found = self.assembly.evaluate(state, loading.pressure(load), tangent, share)
+        if not len(self.fading_force):
+            return found
+        return replace(found, residual=found.residual - (1 - share) * self.fading_force)
+
+    def remaining_force(self, load: float) -> Reals:
+        """Nodal forces (n, 3) of the stage before that are left at a load, N; (0, 3) if none."""
+        share = 1 - self.loading.share(load)
+        if not len(self.fading_force) or share == 0:
+            return np.zeros((0, 3))
+        return share * self.assembly.numbering.expand(self.fading_force)[0]
+
+    def _fading_force(self) -> Reals:
+        """What keeps the start in equilibrium besides this path's loads (m,), N; empty if nothing.
+
+        Dead loads and other pressures of the stage before, reactions of supports that are gone: as
+        dead forces they fade as the load grows, and at the whole load nothing is left of them.
+        """
+        if not len(self.loading.supports_from):
+            return np.zeros(0)
+        start, pressure = self.loading.start, self.loading.pressures[0]
+        return self.assembly.evaluate(start, pressure, tangent=False, load=0.0).residual
 
     def factorize(self, equilibrium: Equilibrium) -> None:
         """Factorize a tangent and count it. Raises ``SingularMatrix``."""
@@ -267,8 +292,12 @@ class Newton:
 
         The part of prescribed motions is a difference quotient: only predictors use it.
         """
-        rate: Reals = self.pressure * equilibrium.force - self.assembly.dead_force
-        if not self.problem.supports.prescribed:
+        loading = self.loading
+        fixed_forces = self.assembly.dead_force
+        if len(self.fading_force):
+            fixed_forces = fixed_forces - self.fading_force
+        rate: Reals = loading.pressure_rate * equilibrium.force - loading.share_rate * fixed_forces
+        if not self.problem.supports.prescribed or loading.constant:
             return rate
         step = DIFFERENCE if load < 0.5 else -DIFFERENCE
         there = self.kinematics.with_supports(state, load + step)
@@ -302,7 +331,7 @@ class Newton:
         """Describe an equilibrium."""
         stress = von_mises(deviatoric_at_nodes(self.problem, state.displacement))
         return PathPoint(
-            pressure=load * self.pressure,
+            pressure=self.loading.pressure(load),
             rotation=self.kinematics.rotation(state),
             iterations=iterations,
             max_von_mises=float(stress[self.trusted].max(initial=0.0)),

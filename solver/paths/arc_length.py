@@ -21,11 +21,12 @@ from solver.assembly.assembly import Equilibrium
 from solver.assembly.state import State
 from solver.errors import SolverError
 from solver.nonlinear.events import Listener
+from solver.nonlinear.loading import Loading
 from solver.nonlinear.newton import Newton
 from solver.nonlinear.options import FIRST_STEP, SolverOptions
 from solver.paths.bordering import EquilibriumPoint, corrected, equilibrium_point
 from solver.problem.problem import Problem
-from solver.results.solution import PathPoint
+from solver.results.solution import PathPoint, Solution
 
 LONGEST_STEP = 0.05
 """Longest step, root mean square over the nodes, in units of the body's diagonal."""
@@ -77,6 +78,7 @@ def trace(
     steps: int = 60,
     longest_step: float = LONGEST_STEP,
     until: Callable[[PathPoint], bool] | None = None,
+    after: Solution | None = None,
 ) -> Trace:
     """Follow the equilibria of ``problem`` from zero load by arc length, stable or not.
 
@@ -93,6 +95,7 @@ def trace(
         longest_step: upper bound of the nodes' displacement in a step, root mean square, in units
             of the body's diagonal.
         until: condition on a point that ends the path there.
+        after: an equilibrium of a stage before, to start from, as for ``solve``.
 
     Returns:
         The path.
@@ -107,13 +110,14 @@ def trace(
             f"trace: longest_step = {longest_step} must be a number above 0 and steps = {steps} "
             "at least 1."
         )
-    newton = Newton(problem, float(pressure), options or SolverOptions(), listener)
+    loading = Loading.of(problem, float(pressure), after)
+    newton = Newton(problem, loading, options or SolverOptions(), listener)
     follower = PathFollower.of(newton, longest_step)
     points: list[PathPoint] = []
     states: list[State] = []
     limits: list[Limit] = []
     message = ""
-    first = follower.start(State.zero(problem), 0.0, newton.options.first_step or FIRST_STEP)
+    first = follower.start(loading.start, 0.0, newton.options.first_step or FIRST_STEP)
     for number, (arc, limit) in enumerate(follower.along(first)):
         points.append(limit.point if limit else follower.point(arc))
         states.append(arc.equilibrium.state)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Sequence
 from dataclasses import astuple, dataclass, replace
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -14,16 +14,16 @@ from solver.assembly.state import State
 from solver.errors import SolverError
 from solver.nonlinear.checkpoint import Checkpoint, Effort
 from solver.nonlinear.events import Guard, Listener
+from solver.nonlinear.loading import Loading
 from solver.nonlinear.newton import Attempt, Newton
 from solver.nonlinear.options import FIRST_STEP, SolverOptions
+from solver.paths.outcome import AtStop, Path, Points, solution_of
 from solver.paths.step_control import Segment, StepControl, follow
 from solver.problem.problem import Problem
 from solver.results.solution import PathPoint, Solution, StopKind
 
 if TYPE_CHECKING:
     from solver.paths.arc_length import Limit
-
-Points: TypeAlias = tuple[PathPoint, ...]
 
 LIMIT_DISTANCE = 0.05
 """Largest distance of a limit point that explains a stop, as a fraction of the load reached."""
@@ -60,6 +60,7 @@ def solve(
     stops: Sequence[float] = (),
     resume: Checkpoint | None = None,
     guard: Guard | None = None,
+    after: Solution | None = None,
 ) -> Solution:
     """Equilibrium of ``problem`` under ``pressure``, reached from zero load.
 
@@ -85,6 +86,10 @@ def solve(
         guard: is asked for every equilibrium whether it is accepted. The path stops before the
             first that is not, located to the options' ``smallest_step``, for the reason that the
             guard gives; ``stopped_by`` is then ``guard``.
+        after: an equilibrium of a stage before, on the same mesh, from which this path starts in
+            place of the undeformed body. Along the path the loads change from those of that stage
+            to those of ``problem``, in proportion; its supports hold nodes where they are at the
+            start, and lead them on from there; supports that it does not have let go step by step.
 
     Returns:
         The last equilibrium found, with the path to it.
@@ -95,8 +100,9 @@ def solve(
     if not np.isfinite(pressure):
         raise SolverError(f"pressure must be a finite number of MPa, got {pressure}.")
     start = time.perf_counter()
-    loads = _stops(stops, float(pressure))
-    newton = Newton(problem, float(pressure), options or SolverOptions(), listener)
+    loading = Loading.of(problem, float(pressure), after)
+    loads = _stops(stops, loading)
+    newton = Newton(problem, loading, options or SolverOptions(), listener)
     path = None
     if resume is not None:
         path = _loaded(newton, loads, *_resumed(newton, resume), guard)
@@ -105,20 +111,6 @@ def solve(
     if path is None:
         path = _loaded(newton, loads, *_from_zero(newton), guard)
     return solution_of(newton, path, time.perf_counter() - start)
-
-
-@dataclass(frozen=True)
-class Path:
-    """A load path: its last ``state``, the ``points`` up to it, and why it stopped before the end.
-
-    ``limit``: load of the limit point that stopped it; ``stopped_by``: what kind of reason it was.
-    """
-
-    state: State
-    points: Points
-    failure: str = ""
-    limit: float | None = None
-    stopped_by: StopKind = ""
 
 
 @dataclass(frozen=True)
@@ -171,12 +163,15 @@ def guarded(attempt: Attempt, guard: Guard | None) -> Attempt:
     return replace(attempt, failure=reason, guarded=True) if reason else attempt
 
 
-def _stops(pressures: Sequence[float], pressure: float) -> tuple[float, ...]:
+def _stops(pressures: Sequence[float], loading: Loading) -> tuple[float, ...]:
     """Pressures, or without one fractions of the load, as ascending fractions within (0, 1)."""
-    loads = sorted({float(stop) / (pressure or 1.0) for stop in pressures})
+    (start, pressure), rate = loading.pressures, loading.pressure_rate
+    loads = sorted({(float(stop) - start) / rate if rate else float(stop) for stop in pressures})
     if not all(0 < load <= 1 + 1e-12 for load in loads):
-        end = f"the pressure of {pressure:g} MPa" if pressure else "the whole load, 1"
-        raise SolverError(f"stops must lie between 0 and {end}, got {list(pressures)}.")
+        end = (
+            f"{start:g} and the pressure of {pressure:g} MPa" if rate else "0 and the whole load, 1"
+        )
+        raise SolverError(f"stops must lie between {end}, got {list(pressures)}.")
     return tuple(load for load in loads if load < 1 - 1e-12)
 
 
@@ -194,19 +189,21 @@ def _from_whole_load(
     newton.effort.load_steps += 1
     points: Points = (newton.point(attempt.state, 1.0, attempt.iterations, newton.system.stable),)
     segment = Segment(attempt, 1.0, 1.0)
+    reached: tuple[AtStop, ...] = ()
     for stop in reversed(stops):
         segment = _followed(newton, replace(segment, points=()), stop, guard=guard)
         if segment.failure:
             return None
         points = (*reversed(segment.points), *points)
-    return Path(attempt.state, (newton.point(State.zero(newton.problem), 0.0, 0, True), *points))
+        reached = (AtStop(segment.reached.state, points[:1]), *reached)
+    return Path(attempt.state, (_unloaded(newton), *points), at_stops=reached)
 
 
 def _up_to_guard(
     newton: Newton, state: State, stops: tuple[float, ...], guard: Guard | None
 ) -> Path | None:
     """From the whole load down to an equilibrium that the guard accepts, and up to the last one."""
-    start = newton.point(State.zero(newton.problem), 0.0, 0, True)
+    start = _unloaded(newton)
     for load in UNLOADING:
         found = newton.correct(state, load, newton.options.tolerance, onward=True)
         if found.failure:
@@ -218,9 +215,14 @@ def _up_to_guard(
     return None
 
 
+def _unloaded(newton: Newton) -> PathPoint:
+    """The point at no load."""
+    return newton.point(newton.loading.start, 0.0, 0, True)
+
+
 def _from_zero(newton: Newton) -> tuple[Segment[Attempt], Points]:
     """Before the first step: the unloaded body."""
-    start = newton.departing(State.zero(newton.problem), 0.0)
+    start = newton.departing(newton.loading.start, 0.0)
     points = (newton.point(start.state, 0.0, 0, newton.system.stable),)
     return Segment(start, 0.0, _first_step(newton, start)), points
 
@@ -251,12 +253,14 @@ def _loaded(
     guard: Guard | None,
 ) -> Path:
     """Load increased from a segment's end through ``stops``; ``points``: the path so far."""
+    reached: tuple[AtStop, ...] = ()
     for stop in (*(stop for stop in stops if stop > segment.position), 1.0):
         segment = _followed(newton, replace(segment, points=()), stop, points, guard)
         points += segment.points
         if segment.failure:
-            return _stopped(newton, segment, points)
-    return Path(segment.reached.state, points)
+            return replace(_stopped(newton, segment, points), at_stops=reached)
+        reached += (AtStop(segment.reached.state, points),)
+    return Path(segment.reached.state, points, at_stops=reached[:-1])
 
 
 def _followed(
@@ -286,7 +290,9 @@ def _stopped(newton: Newton, segment: Segment[Attempt], points: Points) -> Path:
     limit = _limit_near(newton, state, load) if kind == "step" and load else None
     if limit is None:
         return Path(state, points, segment.failure, stopped_by=kind)
-    return Path(state, points, limit.describe(newton.pressure), limit.point.load, "limit")
+    return Path(
+        state, points, limit.describe(newton.loading.pressures[1]), limit.point.load, "limit"
+    )
 
 
 def _last_equilibrium(
@@ -359,37 +365,3 @@ def _report(newton: Newton, segment: Segment[Attempt], points: Points) -> None:
     effort = astuple(newton.effort)
     checkpoint = Checkpoint(reached.state, load, segment.step, direction, points, effort)
     newton.notify("step", load, reached.state, points[-1].iterations, 0.0, checkpoint)
-
-
-def solution_of(newton: Newton, path: Path, seconds: float) -> Solution:
-    """The solution at a path's end."""
-    end = path.points[-1]
-    share = _share(newton.pressure, end.load)
-    limit = path.limit
-    return Solution(
-        problem=newton.problem,
-        pressure=end.pressure,
-        displacement=path.state.displacement,
-        hydrostatic_pressure=path.state.hydrostatic_pressure,
-        path=path.points,
-        converged=not path.failure,
-        message=f"stopped at {share}: {path.failure}." if path.failure else f"reached {share}.",
-        newton_iterations=newton.effort.iterations,
-        factorizations=newton.effort.factorizations,
-        load_steps=newton.effort.load_steps,
-        refused_steps=newton.effort.refused_steps,
-        linear_solver=newton.system.name,
-        negative_pivots=newton.system.negative_pivots,
-        seconds=seconds,
-        plane=(float(path.state.plane[0]), float(path.state.plane[1])),
-        load=end.load,
-        limit=limit if limit is None or not newton.pressure else limit * newton.pressure,
-        stopped_by=path.stopped_by,
-    )
-
-
-def _share(pressure: float, load: float) -> str:
-    """The load reached, relative to the whole one, as text."""
-    if pressure:
-        return f"{load * pressure:.4g} of {pressure:.4g} MPa"
-    return f"{100 * load:.4g} % of the load"

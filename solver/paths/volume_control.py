@@ -18,10 +18,11 @@ from solver.assembly.pressure import enclosed_volume
 from solver.assembly.state import State
 from solver.errors import SolverError
 from solver.nonlinear.events import Listener
+from solver.nonlinear.loading import Loading
 from solver.nonlinear.newton import Newton
 from solver.nonlinear.options import FIRST_STEP, SolverOptions
 from solver.paths.bordering import EquilibriumPoint, corrected, equilibrium_point
-from solver.paths.load_stepping import Path, solution_of
+from solver.paths.outcome import Path, solution_of
 from solver.paths.step_control import Segment, StepControl, follow
 from solver.problem.problem import Problem
 from solver.results.solution import PathPoint, Solution
@@ -57,7 +58,7 @@ def inflate(
     start = time.perf_counter()
     if problem.loads or problem.supports.prescribed or not problem.pressurised:
         raise SolverError("inflate: the problem's only load must be the pressure in a cavity.")
-    newton = Newton(problem, 1.0, options or SolverOptions(), listener)
+    newton = Newton(problem, Loading.of(problem, 1.0), options or SolverOptions(), listener)
     segment, points = _followed(newton, volume, stops)
     end, failure = segment.reached, segment.failure
     solution = solution_of(newton, Path(end.state, points, failure), 0.0)
@@ -71,7 +72,7 @@ def _followed(
     newton: Newton, volume: float, stops: Sequence[float]
 ) -> tuple[Segment[EquilibriumPoint], tuple[PathPoint, ...]]:
     """From the undeformed volume through ``stops`` to ``volume``: last segment and path."""
-    options, still = newton.options, State.zero(newton.problem)
+    options, still = newton.options, newton.loading.start
     rest = _volume(newton, still)
     points: tuple[PathPoint, ...] = (newton.point(still, 0.0, 0, True),)
     step = (options.first_step or FIRST_STEP) * abs(volume - rest)

@@ -50,5 +50,7 @@ def reaction(
     mesh = solution.problem.mesh
     nodes = mesh.surface_nodes(surface)
     forces = unbalanced_forces(solution.problem, solution.state, solution.pressure, solution.load)
+    if len(solution.remaining_force):
+        forces = forces - solution.remaining_force
     arms = mesh.nodes[nodes] + solution.displacement[nodes] - np.asarray(about, float)
     return Reaction(forces[nodes].sum(axis=0), np.cross(arms, forces[nodes]).sum(axis=0))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal, TypeAlias
 
 import numpy as np
@@ -72,6 +72,12 @@ class Solution:
         limit: pressure at the limit point that ended the path, MPa (fraction of the load where
             there is no pressure); None without one.
         stopped_by: what ended the path; empty if ``converged``.
+        at_stops: the equilibria at the stops that were asked for, as far as they were reached, in
+            ascending order of the load.
+        remaining_force: of the stage before, as dead forces on the nodes, at an equilibrium short
+            of the whole load.
+
+            *Shape:* (n, 3) in N; (0, 3) if there is none.
     """
 
     problem: Problem
@@ -92,6 +98,8 @@ class Solution:
     load: float = 1.0
     limit: float | None = None
     stopped_by: StopKind = ""
+    at_stops: tuple[Solution, ...] = ()
+    remaining_force: Reals = field(default_factory=lambda: np.zeros((0, 3)))
 
     @property
     def stable(self) -> bool | None:

@@ -10,6 +10,7 @@ import pytest
 from solver import Event, Mesh, Ogden, Problem, SolverOptions, Supports, inflate, solve
 from solver.assembly.state import State
 from solver.nonlinear.events import Guard
+from solver.nonlinear.loading import Loading
 from solver.nonlinear.newton import Attempt, Newton
 from solver.paths import load_stepping
 from solver.paths.step_control import StepControl
@@ -116,7 +117,7 @@ def test_where_the_end_of_a_path_fails_the_full_tolerance_a_lower_equilibrium_is
     cell_problem: Problem, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Not the unloaded body, which says nothing."""
-    newton = Newton(cell_problem, 0.1, SolverOptions())
+    newton = Newton(cell_problem, Loading.of(cell_problem, 0.1), SolverOptions())
     good = solve(cell_problem, 0.05)
     usual = Newton.correct
 
