@@ -116,13 +116,11 @@ def _averages() -> Reals:
 
 def _children() -> Reals:
     """Barycentric corners (8, 4, 4) of the eight parts that the middles of the edges make."""
-    corner = np.eye(4)
-    middle = {pair: corner[list(pair)].mean(axis=0) for pair in itertools.combinations(range(4), 2)}
-    m = lambda a, b: middle[min(a, b), max(a, b)]  # noqa: E731
-    ends = [[corner[a], *(m(a, b) for b in range(4) if b != a)] for a in range(4)]
-    ring = [m(0, 1), m(1, 2), m(2, 3), m(0, 3)]  # around the diagonal of the octahedron
-    inner = [[m(0, 2), m(1, 3), ring[k], ring[(k + 1) % 4]] for k in range(4)]
-    return np.array(ends + inner)
+    corners = np.eye(4)
+    middles = (corners[:, None] + corners) / 2  # of corners a and b; a corner itself at a = b
+    ring = middles[[0, 1, 2, 3], [1, 2, 3, 0]]  # around the diagonal of the octahedron inside
+    inner = [[middles[0, 2], middles[1, 3], ring[k], ring[(k + 1) % 4]] for k in range(4)]
+    return np.concatenate([middles, np.array(inner)])
 
 
 AVERAGES = _averages()

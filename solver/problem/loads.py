@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import TypeAlias, get_args
 
 import numpy as np
 
 from solver.arrays import Integers, Reals
 from solver.errors import SolverError
+from solver.input_types import number, shown
 from solver.mesh.elements import Rule, tetrahedron_rule, triangle_rule
 from solver.mesh.mesh import Mesh
 
@@ -76,6 +77,8 @@ class Couple:
 
 Load: TypeAlias = Traction | BodyForce | PointForce | Couple
 
+LOAD_KINDS: tuple[type, ...] = get_args(Load)
+
 
 def nodal_forces(mesh: Mesh, loads: Sequence[Load]) -> Reals:
     """Consistent nodal forces (n, 3) in N of all ``loads`` but the couples.
@@ -106,7 +109,10 @@ def loaded_surfaces(loads: Sequence[Load]) -> tuple[str, ...]:
 
 def couple(loads: Sequence[Load]) -> float:
     """Sum of the couples on the moving plane, N mm; ``SolverError`` if it is not finite."""
-    moment = math.fsum(load.moment for load in loads if isinstance(load, Couple))
+    couples = [load for load in loads if isinstance(load, Couple)]
+    for load in couples:
+        number("load: a couple's moment", load.moment)
+    moment = math.fsum(load.moment for load in couples)
     if not math.isfinite(moment):
         raise SolverError(f"load: a couple's moment must be a finite number of N mm, got {moment}.")
     return moment
@@ -135,24 +141,33 @@ def _integrated(mesh: Mesh, cells: Integers, rule: Rule, sizes: Reals, field: Fi
     return forces
 
 
-def _on_node(mesh: Mesh, load: PointForce) -> Reals:
+def node_at(mesh: Mesh, position: tuple[float, float, float], what: str = "point force") -> int:
+    """The node of an element at a position in mm; ``SolverError`` if there is none."""
     nodes = np.unique(mesh.tets)
-    away = mesh.nodes[nodes] - _values(load.position, np.zeros((1, 3)))
+    away = mesh.nodes[nodes] - _values(position, np.zeros((1, 3)))
     distances = np.linalg.norm(away, axis=1)
     nearest = int(distances.argmin())
     if distances[nearest] > 1e-6 * mesh.size:
         raise SolverError(
-            f"point force: no node lies at {load.position} mm; the nearest is "
+            f"{what}: no node lies at {position} mm; the nearest is "
             f"{distances[nearest]:.3g} mm away."
         )
+    return int(nodes[nearest])
+
+
+def _on_node(mesh: Mesh, load: PointForce) -> Reals:
     forces = np.zeros(mesh.nodes.shape)
-    forces[nodes[nearest]] = _values(load.force, np.zeros((1, 3)))[0]
+    forces[node_at(mesh, load.position)] = _values(load.force, np.zeros((1, 3)))[0]
     return forces
 
 
 def _values(field: Field, positions: Reals) -> Reals:
     """Vectors (k, 3) of a field at positions (k, 3)."""
-    given = np.asarray(field(positions) if callable(field) else field, float)
+    value = field(positions) if callable(field) else field
+    try:
+        given = np.asarray(value, float)
+    except (TypeError, ValueError):
+        raise SolverError(f"load: needs vectors of numbers, got {shown(value)}.") from None
     if given.shape not in ((3,), positions.shape):
         raise SolverError(f"load: needs vectors of the shape {positions.shape}, got {given.shape}.")
     if not np.isfinite(given).all():

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from solver.errors import SolverError
+from solver.input_types import instance, members_of, names, number, numbers
 from solver.material.law import Hyperelastic
 from solver.mesh.mesh import Mesh
 from solver.problem.supports import Supports
@@ -31,7 +32,7 @@ class SlenderAxis:
     stations: tuple[float, ...]
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "stations", tuple(float(x) for x in self.stations))
+        object.__setattr__(self, "stations", numbers("axis: stations", self.stations))
         finite = bool(np.isfinite(self.stations).all())
         if len(self.stations) < 2 or not finite or not (np.diff(self.stations) > 0).all():
             raise SolverError(
@@ -62,6 +63,8 @@ class Contact:
     position: float = 0.0
 
     def __post_init__(self) -> None:
+        number("contacts: penetration", self.penetration)
+        number("contacts: position", self.position)
         if self.axis not in (None, 0, 1, 2):
             raise SolverError(f"contacts: the plane's axis must be 0, 1 or 2, got {self.axis}.")
         if not 0 < self.penetration < np.inf or not np.isfinite(self.position):
@@ -109,24 +112,36 @@ class Problem:
     contacts: tuple[Contact, ...] = ()
 
     def __post_init__(self) -> None:
+        self._check_kinds()
         from solver.mesh.checks import check_mesh
         from solver.problem.loads import check_loads, loaded_surfaces
         from solver.problem.support_checks import check_pressure, check_supports
         from solver.problem.supports import fixed_displacements
 
-        object.__setattr__(self, "pressurised", tuple(self.pressurised))
-        object.__setattr__(self, "loads", tuple(self.loads))
         check_loads(self.loads, self.moving_plane)
         check_mesh(self.mesh, self.pressurised, loaded_surfaces(self.loads))
         if not 0 <= self.sharp_edge_radius < np.inf:
             raise SolverError(
                 f"sharp_edge_radius = {self.sharp_edge_radius} mm must be a number of at least 0."
             )
-        object.__setattr__(self, "contacts", tuple(self.contacts))
+        object.__setattr__(self, "contacts", members_of("contacts", self.contacts, (Contact,)))
         _check_contacts(self)
         check_supports(self.mesh, self.supports, self.moving_plane)
         if self.material.compliance == 0:
             check_pressure(self.mesh, fixed_displacements(self.mesh, self.supports))
+
+    def _check_kinds(self) -> None:
+        """Raise ``SolverError`` for values of another kind; sequences become tuples."""
+        from solver.problem.loads import LOAD_KINDS
+
+        instance("mesh", self.mesh, Mesh)
+        instance("material", self.material, Hyperelastic)
+        instance("supports", self.supports, Supports)
+        instance("axis", self.axis, SlenderAxis, optional=True)
+        instance("moving_plane", self.moving_plane, str, optional=True)
+        number("sharp_edge_radius", self.sharp_edge_radius)
+        object.__setattr__(self, "pressurised", names("pressurised", self.pressurised))
+        object.__setattr__(self, "loads", members_of("loads", self.loads, LOAD_KINDS))
 
 
 def _check_contacts(problem: Problem) -> None:
