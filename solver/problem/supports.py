@@ -144,6 +144,37 @@ def given_displacements(
     return given
 
 
+SINGLE_NODES = ""
+"""Stands for ``Supports.nodes`` among the names of surfaces."""
+
+
+def held_by_each(
+    mesh: Mesh, supports: Supports, moving_plane: str | None = None
+) -> dict[str, NDArray[np.bool_]]:
+    """Which displacements (n, 3) each supported surface holds by itself, by its name.
+
+    Single nodes are under ``SINGLE_NODES``; the moving plane holds the nodes on it in its motion.
+    """
+    held: dict[str, NDArray[np.bool_]] = {}
+    for name in supports.clamped:
+        _at(held, name, mesh)[mesh.surface_nodes(name)] = True
+    for name, axes in supports.symmetry.items():
+        _at(held, name, mesh)[mesh.surface_nodes(name)[:, None], axes_of(axes)] = True
+    for name in supports.prescribed:
+        motion = prescribed_motion(mesh, supports, name, 1.0)
+        _at(held, name, mesh)[mesh.surface_nodes(name)] |= ~np.isnan(motion)
+    for position, axes in supports.nodes.items():
+        _at(held, SINGLE_NODES, mesh)[node_at(mesh, position, "supports"), axes_of(axes)] = True
+    if moving_plane is not None:
+        _at(held, moving_plane, mesh)[mesh.surface_nodes(moving_plane)[:, None], [0, 2]] = True
+    return held
+
+
+def _at(held: dict[str, NDArray[np.bool_]], name: str, mesh: Mesh) -> NDArray[np.bool_]:
+    """The table (n, 3) of a name, all false at first."""
+    return held.setdefault(name, np.zeros(mesh.nodes.shape, bool))
+
+
 def prescribed_motion(mesh: Mesh, supports: Supports, surface: str, load: float) -> Reals:
     """Prescribed displacements (k, 3) in mm of a surface's nodes at a fraction of the load."""
     positions = mesh.nodes[mesh.surface_nodes(surface)]
