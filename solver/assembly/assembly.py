@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from solver.arrays import Integers, Reals
 from solver.assembly.colouring import chunks
 from solver.assembly.contact import Contacts
+from solver.assembly.free_rim import FreeRim
 from solver.assembly.moving_plane import MovingPlane
 from solver.assembly.pressure import pressure_facets
 from solver.assembly.state import State
@@ -31,8 +32,9 @@ class Equilibrium:
     """Residual and tangent at a state, over the unknowns (m,).
 
     ``residual`` is internal minus external force (N) and constraint violation (mm^3); ``force``
-    its derivative with respect to the applied pressure (mm^2); ``tangent`` the CSR values of its
-    derivative with respect to the unknowns, in ``pattern``, empty if not requested.
+    its derivative with respect to the applied pressure (mm^2); ``tangent`` the CSR values of the
+    symmetric part of its derivative with respect to the unknowns, in ``pattern``, empty if not
+    requested; ``skew`` those of the skew part, empty where the loads have a potential.
     ``smallest_jacobian`` is the least J of all quadrature points; the rest is meaningless unless it
     is positive.
     """
@@ -42,12 +44,13 @@ class Equilibrium:
     tangent: Reals
     smallest_jacobian: float
     pattern: Pattern
+    skew: Reals = field(default_factory=lambda: np.zeros(0))
 
     @property
     def admissible(self) -> bool:
         """No element is inverted and every number is finite."""
-        finite = np.isfinite(self.residual).all() and np.isfinite(self.tangent).all()
-        return bool(self.smallest_jacobian > 0 and finite)
+        numbers = (self.residual, self.tangent, self.skew)
+        return bool(self.smallest_jacobian > 0 and all(np.isfinite(x).all() for x in numbers))
 
 
 class Assembly:
@@ -57,7 +60,8 @@ class Assembly:
     numbering: Numbering
     pattern: Pattern
 
-    def __init__(self, problem: Problem) -> None:
+    def __init__(self, problem: Problem, start: Reals | None = None) -> None:
+        """``start`` (n, 3): displacements that the supports act from, mm; by default none."""
         mesh = problem.mesh
         self.problem = problem
         surface = problem.moving_plane
@@ -77,6 +81,8 @@ class Assembly:
         if self.plane is not None:
             self.dead_force[self.numbering.plane[0]] += couple(problem.loads)
         self._facets = self._pressure_facets()
+        still = np.zeros(mesh.nodes.shape) if start is None else start
+        self._rim = FreeRim.of(problem, self.numbering, self.pattern, still)
         self.contacts = Contacts(problem, self.numbering, self.plane, self.pattern)
 
     def evaluate(
@@ -90,7 +96,21 @@ class Assembly:
         self._add_pressure(state, pressure, tangent, force, values)
         residual += pressure * force - load * self.dead_force
         values, pattern = self.contacts.add(state, tangent, residual, values)
-        return Equilibrium(residual, force, values, smallest, pattern)
+        skew = self._skew(state, pressure) if tangent else np.zeros(0)
+        return Equilibrium(residual, force, values, smallest, pattern, skew)
+
+    @property
+    def symmetric(self) -> bool:
+        """Whether the tangent is symmetric: all loads have a potential."""
+        return len(self._rim.edges) == 0
+
+    def _skew(self, state: State, pressure: float) -> Reals:
+        """CSR values of the skew part of the tangent; empty where it is symmetric."""
+        if self.symmetric:
+            return np.zeros(0)
+        values = np.zeros(len(self.pattern.indices))
+        self._rim.add_tangent(self.problem.mesh.nodes + state.displacement, pressure, values)
+        return values
 
     def _add_solid(self, state: State, tangent: bool, residual: Reals, values: Reals) -> float:
         """Add all elements to ``residual`` and ``values``; the smallest J."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from solver.arrays import Reals
-from solver.linear.interface import LinearSolver, SingularMatrix
+from solver.linear.interface import LinearSolver, SingularMatrix, require_symmetric
 from solver.linear.sparsity import Pattern
 
 
@@ -34,15 +34,16 @@ class Fallback:
         self._first.analyze(pattern)
         self._unseen = pattern
 
-    def factorize(self, values: Reals) -> None:
+    def factorize(self, values: Reals, skew: Reals | None = None) -> None:
         """Factorize with ``first``, else with ``second``."""
+        require_symmetric(self.name, skew)
         self._last = self._first
         try:
             self._first.factorize(values)
         except SingularMatrix:
             self._factorize_with_second(values)
 
-    def solve(self, right_hand_side: Reals) -> Reals:
+    def solve(self, right_hand_side: Reals, transposed: bool = False) -> Reals:
         """Solve with the last factorization."""
         return self._last.solve(right_hand_side)
 

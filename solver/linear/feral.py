@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from solver.arrays import Reals
-from solver.linear.interface import SingularMatrix
+from solver.linear.interface import SingularMatrix, require_symmetric
 from solver.linear.sparsity import Pattern
 
 FERAL_OPTIONS = {
@@ -48,8 +48,9 @@ class Feral:
         pointer, rows = (numbers.astype(np.int64) for numbers in (pattern.indptr, pattern.indices))
         self._matrix = self._feral.CscMatrix(len(pointer) - 1, pointer, rows, np.zeros(len(rows)))
 
-    def factorize(self, values: Reals) -> None:
+    def factorize(self, values: Reals, skew: Reals | None = None) -> None:
         """Numerical factorization; feral accepts zero pivots and counts them, this does not."""
+        require_symmetric(self.name, skew)
         self.negative_pivots = None
         try:
             status, inertia = self._solver.factor(self._matrix.set_values(values))
@@ -59,7 +60,7 @@ class Feral:
             raise SingularMatrix(f"feral met zero pivots: {inertia.n_zero}")
         self.negative_pivots = inertia.n_neg
 
-    def solve(self, right_hand_side: Reals) -> Reals:
+    def solve(self, right_hand_side: Reals, transposed: bool = False) -> Reals:
         """Solve with the last factorization."""
         return self._solver.solve(np.ascontiguousarray(right_hand_side, np.float64))
 

@@ -7,6 +7,7 @@ import os
 import site
 import sys
 import weakref
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -14,8 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from solver.arrays import Integers, Reals
-from solver.linear.interface import SingularMatrix
-from solver.linear.sparsity import Pattern
+from solver.linear.interface import SingularMatrix, require_symmetric
+from solver.linear.sparsity import Pattern, WholeMatrix
 
 PARDISO_PARAMETERS = {
     1: 1,  # these values instead of the defaults
@@ -26,6 +27,25 @@ PARDISO_PARAMETERS = {
     34: 2,  # the same bits in every run, whatever the threads do
     35: 1,  # indices start at 0
 }
+GENERAL_PARAMETERS = {
+    1: 1,
+    2: 2,
+    8: 2,  # pivots are not searched outside supernodes: two steps of refinement
+    10: 13,  # perturb pivots below 1e-13
+    11: 1,  # scale rows and columns
+    13: 1,  # permute large entries to the diagonal, which is zero for an incompressible body
+    34: 2,
+    35: 1,
+}
+SYMMETRIC, GENERAL = -2, 11
+"""PARDISO's numbers for types of matrices: indefinite and real, any real one."""
+
+ANALYSIS, ANALYSIS_AND_FACTORIZATION, FACTORIZATION, SOLUTION, RELEASE = 11, 12, 22, 33, -1
+"""Its numbers for what to do."""
+
+TRANSPOSED, NEGATIVE_EIGENVALUES = 12, 23
+"""Its numbers for parameters."""
+
 SINGULAR, NO_MEMORY, TOO_LARGE = (-4, -7), (-2, -9), (-8,)
 """PARDISO's error numbers that say so; all others are faults of a call."""
 
@@ -48,14 +68,7 @@ class Pardiso:
 
     def __init__(self) -> None:
         self.negative_pivots: int | None = None
-        self._pardiso = _load_mkl().pardiso
-        self._handle = np.zeros(64, np.int64)
-        self._parameters = np.zeros(64, np.int32)
-        for number, value in PARDISO_PARAMETERS.items():
-            self._parameters[number - 1] = value
-        self._pattern: Pattern | None = None
-        self._values = np.zeros(0)
-        weakref.finalize(self, _release, self._pardiso, self._handle, self._parameters)
+        self._store = PardisoStore(SYMMETRIC, PARDISO_PARAMETERS)
 
     @property
     def odd_negative(self) -> bool | None:
@@ -64,30 +77,90 @@ class Pardiso:
 
     def analyze(self, pattern: Pattern) -> None:
         """Fill-reducing ordering and symbolic factorization."""
-        self._pattern = pattern
-        self._parameters[TWO_LEVEL - 1] = len(pattern.indptr) > LARGE
-        self._values = np.zeros(len(pattern.indices))
-        self._call(11)
+        self._store.take(pattern.indptr, pattern.indices)
+        self._store.call(ANALYSIS)
 
-    def factorize(self, values: Reals) -> None:
+    def factorize(self, values: Reals, skew: Reals | None = None) -> None:
         """Numerical factorization of the matrix with the given CSR values."""
-        self._values = values
-        self._call(22)
-        self.negative_pivots = int(self._parameters[22])
+        require_symmetric(self.name, skew)
+        self._store.values = values
+        self._store.call(FACTORIZATION)
+        self.negative_pivots = self._store.parameter(NEGATIVE_EIGENVALUES)
 
-    def solve(self, right_hand_side: Reals) -> Reals:
+    def solve(self, right_hand_side: Reals, transposed: bool = False) -> Reals:
         """Solve with the last factorization."""
-        return self._call(33, right_hand_side)
+        return self._store.call(SOLUTION, right_hand_side)
 
-    def _call(self, phase: int, rhs: Reals | None = None) -> Reals:
-        pattern = self._pattern
-        if pattern is None:
+
+class GeneralPardiso:
+    """MKL's PARDISO, L U with pivoting within supernodes (mtype 11), for any matrix.
+
+    Rows are permuted and scaled by the values (maximum weighted matching) for pivots to be large,
+    so each matrix is analyzed anew. Tells nothing about eigenvalues.
+    """
+
+    name = "pardiso"
+    negative_pivots: int | None = None
+    odd_negative: bool | None = None
+
+    def __init__(self) -> None:
+        self._store = PardisoStore(GENERAL, GENERAL_PARAMETERS)
+
+    def analyze(self, pattern: Pattern) -> None:
+        """Both triangles of the pattern."""
+        self._whole = WholeMatrix.of(pattern)
+        self._store.take(self._whole.indptr, self._whole.indices)
+
+    def factorize(self, values: Reals, skew: Reals | None = None) -> None:
+        """Ordering, symbolic and numerical factorization."""
+        self._store.values = self._whole.by_rows(values, skew)
+        self._store.call(ANALYSIS_AND_FACTORIZATION)
+
+    def solve(self, right_hand_side: Reals, transposed: bool = False) -> Reals:
+        """Solve with the last factorization."""
+        self._store.set_parameter(TRANSPOSED, 2 if transposed else 0)
+        return self._store.call(SOLUTION, right_hand_side)
+
+
+class PardisoStore:
+    """A matrix of a type that PARDISO knows by number, and what PARDISO keeps about it."""
+
+    def __init__(self, matrix_type: int, parameters: Mapping[int, int]) -> None:
+        self._pardiso = _load_mkl().pardiso
+        self._type = matrix_type
+        self._handle = np.zeros(64, np.int64)
+        self._parameters = np.zeros(64, np.int32)
+        for number, value in parameters.items():
+            self.set_parameter(number, value)
+        self._indptr: Integers | None = None
+        self._indices: Integers = np.zeros(0, np.int32)
+        self.values: Reals = np.zeros(0)
+        store = self._pardiso, self._type, self._handle, self._parameters
+        weakref.finalize(self, _release, *store)
+
+    def set_parameter(self, number: int, value: int) -> None:
+        """Set one of the parameters, numbered from 1 as in PARDISO's manual."""
+        self._parameters[number - 1] = value
+
+    def parameter(self, number: int) -> int:
+        """One of the parameters."""
+        return int(self._parameters[number - 1])
+
+    def take(self, indptr: Integers, indices: Integers) -> None:
+        """Take a pattern, with values of zero."""
+        self._indptr, self._indices = indptr, indices
+        self.set_parameter(TWO_LEVEL, int(len(indptr) > LARGE))
+        self.values = np.zeros(len(indices))
+
+    def call(self, phase: int, rhs: Reals | None = None) -> Reals:
+        """One phase; the solution if it is that. Raises ``SingularMatrix``, ``MemoryError``."""
+        if self._indptr is None:
             raise RuntimeError("PARDISO needs analyze() before anything else.")
-        solution = np.zeros(len(pattern.indptr) - 1)
+        solution = np.zeros(len(self._indptr) - 1)
         given = solution if rhs is None else np.ascontiguousarray(rhs, np.float64)
         error = _pardiso(
-            self._pardiso, self._handle, phase, self._values, pattern.indptr,
-            pattern.indices, self._parameters, given, solution,
+            self._pardiso, self._type, self._handle, phase, self.values, self._indptr,
+            self._indices, self._parameters, given, solution,
         )  # fmt: skip
         if error:
             raise _failure(error, phase)
@@ -137,6 +210,7 @@ def _with_our_interface(library: ctypes.CDLL) -> ctypes.CDLL:
 
 def _pardiso(
     function: Any,
+    matrix_type: int,
     handle: NDArray[np.int64],
     phase: int,
     values: Reals,
@@ -147,7 +221,9 @@ def _pardiso(
     solution: Reals,
 ) -> int:
     """One call of MKL's ``pardiso``; returns its error number."""
-    integers = [ctypes.c_int32(value) for value in (1, 1, -2, phase, len(indptr) - 1, 1, 0, 0)]
+    integers = [
+        ctypes.c_int32(value) for value in (1, 1, matrix_type, phase, len(indptr) - 1, 1, 0, 0)
+    ]
     maxfct, mnum, mtype, c_phase, n, nrhs, verbosity, error = map(ctypes.byref, integers)
 
     def pointer(array: NDArray[Any]) -> ctypes.c_void_p:
@@ -161,6 +237,11 @@ def _pardiso(
     return integers[-1].value
 
 
-def _release(function: Any, handle: NDArray[np.int64], parameters: Integers) -> None:
+def _release(
+    function: Any, matrix_type: int, handle: NDArray[np.int64], parameters: Integers
+) -> None:
     nothing, no_index = np.zeros(1), np.zeros(1, np.int32)
-    _pardiso(function, handle, -1, nothing, no_index, no_index, parameters, nothing, nothing)
+    _pardiso(
+        function, matrix_type, handle, RELEASE, nothing, no_index, no_index, parameters, nothing,
+        nothing,
+    )  # fmt: skip

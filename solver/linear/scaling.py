@@ -64,10 +64,13 @@ class Scaled:
         self._products = rows * self._scale[pattern.indices]
         self._solver.analyze(pattern)
 
-    def factorize(self, values: Reals) -> None:
+    def factorize(self, values: Reals, skew: Reals | None = None) -> None:
         """Factorize D A D."""
-        self._solver.factorize(self._products * values)
+        if skew is None or not len(skew):
+            self._solver.factorize(self._products * values)
+        else:
+            self._solver.factorize(self._products * values, self._products * skew)
 
-    def solve(self, right_hand_side: Reals) -> Reals:
+    def solve(self, right_hand_side: Reals, transposed: bool = False) -> Reals:
         """Solve A x = b by D A D y = D b, x = D y."""
-        return self._scale * self._solver.solve(self._scale * right_hand_side)
+        return self._scale * self._solver.solve(self._scale * right_hand_side, transposed)

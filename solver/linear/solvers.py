@@ -9,7 +9,7 @@ from solver.errors import SolverError
 from solver.linear.fallback import Fallback
 from solver.linear.feral import Feral
 from solver.linear.interface import LinearSolver
-from solver.linear.pardiso import Pardiso
+from solver.linear.pardiso import GeneralPardiso, Pardiso
 from solver.linear.superlu import SuperLU
 
 SOLVERS: dict[str, Callable[[], LinearSolver]] = {
@@ -20,22 +20,32 @@ SOLVERS: dict[str, Callable[[], LinearSolver]] = {
 """Where feral refuses a matrix SuperLU factorizes it, which does not know its inertia."""
 
 
-def linear_solver(name: str = "auto") -> LinearSolver:
+GENERAL_SOLVERS: dict[str, Callable[[], LinearSolver]] = {
+    "pardiso": GeneralPardiso,
+    "feral": SuperLU,
+    "superlu": SuperLU,
+}
+"""For matrices that are not symmetric, which feral cannot take."""
+
+
+def linear_solver(name: str = "auto", symmetric: bool = True) -> LinearSolver:
     """The solver called ``name``; ``auto``: PARDISO if MKL can be loaded, else feral, else SuperLU.
 
-    Raises ``SolverError`` for another name and ``ImportError`` when a solver was asked for by name
-    and cannot be loaded.
+    Unless ``symmetric``, one that takes other matrices; its own name says which. Raises
+    ``SolverError`` for another name and ``ImportError`` when a solver was asked for by name and
+    cannot be loaded.
     """
+    solvers = SOLVERS if symmetric else GENERAL_SOLVERS
     if name == "auto":
-        return _first_that_loads()
-    if name not in SOLVERS:
-        known = ", ".join(("auto", *SOLVERS))
+        return _first_that_loads(solvers)
+    if name not in solvers:
+        known = ", ".join(("auto", *solvers))
         raise SolverError(f"linear_solver must be one of {known}, got {name!r}.")
-    return SOLVERS[name]()
+    return solvers[name]()
 
 
-def _first_that_loads() -> LinearSolver:
+def _first_that_loads(solvers: dict[str, Callable[[], LinearSolver]]) -> LinearSolver:
     for name in ("pardiso", "feral"):
         with suppress(ImportError):
-            return SOLVERS[name]()
+            return solvers[name]()
     return SuperLU()

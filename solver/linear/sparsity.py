@@ -11,7 +11,7 @@ import numpy as np
 from numba import prange
 from numpy.typing import NDArray
 
-from solver.arrays import Integers
+from solver.arrays import Integers, Reals
 from solver.compilation import njit
 from solver.errors import SolverError
 
@@ -32,6 +32,51 @@ class Pattern:
         places = np.empty((len(dofs), width * (width + 1) // 2), np.int32)
         _locate(self.indptr, self.indices, dofs, places)
         return places
+
+
+@dataclass(frozen=True)
+class WholeMatrix:
+    """Both triangles of a ``Pattern``, ``indptr`` (n + 1,), ``indices`` (k,), by rows or columns.
+
+    ``source`` (k,): the entry of the upper triangle that each one comes from, ``side`` (k,): 1
+    above the diagonal, -1 below, 0 on it, for storage by rows.
+    """
+
+    indptr: Integers
+    indices: Integers
+    source: NDArray[np.int64]
+    side: NDArray[np.int8]
+
+    @staticmethod
+    def of(pattern: Pattern) -> WholeMatrix:
+        """Mirror the upper triangle."""
+        from scipy.sparse import csr_array
+
+        size = len(pattern.indptr) - 1
+        numbers = np.arange(1, len(pattern.indices) + 1, dtype=np.float64)
+        upper = csr_array((numbers, pattern.indices, pattern.indptr), shape=(size, size))
+        lower = upper.T.tocsr()
+        lower.setdiag(0.0)
+        lower.eliminate_zeros()
+        whole = csr_array(upper + lower)
+        whole.sort_indices()
+        rows = np.repeat(np.arange(size), np.diff(whole.indptr))
+        return WholeMatrix(
+            indptr=whole.indptr.astype(np.int32),
+            indices=whole.indices.astype(np.int32),
+            source=whole.data.astype(np.int64) - 1,
+            side=np.sign(whole.indices - rows).astype(np.int8),
+        )
+
+    def by_rows(self, values: Reals, skew: Reals | None) -> Reals:
+        """Values (k,) of the symmetric matrix plus a skew one, both given by upper triangles."""
+        if skew is None or not len(skew):
+            return values[self.source]
+        return values[self.source] + self.side * skew[self.source]
+
+    def by_columns(self, values: Reals, skew: Reals | None) -> Reals:
+        """The same column by column."""
+        return self.by_rows(values, None if skew is None else -skew)
 
 
 def upper_pattern(dofs: Integers, size: int) -> Pattern:

@@ -6,11 +6,11 @@ import numpy as np
 
 from solver.arrays import Reals
 from solver.linear.interface import SingularMatrix
-from solver.linear.sparsity import Pattern, is_odd
+from solver.linear.sparsity import Pattern, WholeMatrix, is_odd
 
 
 class SuperLU:
-    """SciPy's SuperLU on the whole matrix: slower and hungrier, but everywhere.
+    """SciPy's SuperLU on the whole matrix, symmetric or not: slower and hungrier, but everywhere.
 
     Its pivots are not the matrix's inertia, but their signs and the swaps of rows and columns give
     the sign of the determinant: whether the number of negative eigenvalues is odd.
@@ -22,22 +22,18 @@ class SuperLU:
 
     def analyze(self, pattern: Pattern) -> None:
         """Build the full matrix's pattern and where its values come from."""
-        from scipy.sparse import csc_array, csr_array
+        from scipy.sparse import csc_array
 
+        self._whole = whole = WholeMatrix.of(pattern)
         size = len(pattern.indptr) - 1
-        numbers = np.arange(1, len(pattern.indices) + 1, dtype=np.float64)
-        upper = csr_array((numbers, pattern.indices, pattern.indptr), shape=(size, size))
-        lower = upper.T.tocsr()
-        lower.setdiag(0.0)
-        lower.eliminate_zeros()
-        self._full = csc_array(upper + lower)
-        self._source = self._full.data.astype(np.int64) - 1
+        zeros = np.zeros(len(whole.indices))
+        self._full = csc_array((zeros, whole.indices, whole.indptr), shape=(size, size))
 
-    def factorize(self, values: Reals) -> None:
+    def factorize(self, values: Reals, skew: Reals | None = None) -> None:
         """Numerical factorization; SuperLU repeats the ordering every time."""
         from scipy.sparse.linalg import splu
 
-        self._full.data = values[self._source]
+        self._full.data = self._whole.by_columns(values, skew)
         try:
             self._factor = splu(
                 self._full,
@@ -51,7 +47,8 @@ class SuperLU:
         swaps = (is_odd(order) for order in (self._factor.perm_r, self._factor.perm_c))
         self.odd_negative = bool((negative + sum(swaps)) % 2 == 1)
 
-    def solve(self, right_hand_side: Reals) -> Reals:
+    def solve(self, right_hand_side: Reals, transposed: bool = False) -> Reals:
         """Solve with the last factorization and one step of iterative refinement."""
-        solution = self._factor.solve(right_hand_side)
-        return solution + self._factor.solve(right_hand_side - self._full @ solution)
+        matrix, mode = (self._full.T, "T") if transposed else (self._full, "N")
+        solution = self._factor.solve(right_hand_side, mode)
+        return solution + self._factor.solve(right_hand_side - matrix @ solution, mode)

@@ -96,6 +96,6 @@ def _checkpoint(arrays: dict[str, Any]) -> Checkpoint:
 
 
 def _point(row: Reals) -> PathPoint:
-    pressure, rotation, iterations, stress, volume, load, stable = (float(value) for value in row)
-    known = None if np.isnan(stable) else bool(stable)
-    return PathPoint(pressure, rotation, int(iterations), stress, volume, load, known)
+    pressure, rotation, iterations, stress, volume, load, *answers = (float(v) for v in row)
+    known = [None if np.isnan(answer) else bool(answer) for answer in answers]
+    return PathPoint(pressure, rotation, int(iterations), stress, volume, load, *known)

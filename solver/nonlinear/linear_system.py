@@ -15,7 +15,8 @@ class LinearSystem:
     def __init__(self, assembly: Assembly, name: str) -> None:
         self._numbering = assembly.numbering
         self._pressures = len(assembly.problem.mesh.vertices)
-        self._solver = scaled(linear_solver(name), factors(assembly.problem, assembly.numbering))
+        solver = linear_solver(name, assembly.symmetric)
+        self._solver = scaled(solver, factors(assembly.problem, assembly.numbering))
         self._solver.analyze(assembly.pattern)
         self._analyzed = assembly.pattern
 
@@ -34,11 +35,11 @@ class LinearSystem:
         if equilibrium.pattern is not self._analyzed:
             self._solver.analyze(equilibrium.pattern)
             self._analyzed = equilibrium.pattern
-        self._solver.factorize(equilibrium.tangent)
+        self._solver.factorize(equilibrium.tangent, equilibrium.skew)
 
-    def solve(self, right_hand_side: Reals) -> Reals:
-        """Solve for the unknowns (m,) with the last factorization."""
-        return self._solver.solve(right_hand_side)
+    def solve(self, right_hand_side: Reals, transposed: bool = False) -> Reals:
+        """Solve for the unknowns (m,) with the last factorization, or its transpose."""
+        return self._solver.solve(right_hand_side, transposed)
 
     def increment(self, right_hand_side: Reals) -> State:
         """The same as an increment of the state."""
@@ -53,7 +54,9 @@ class LinearSystem:
         """Number of modes in which the body of the last tangent is unstable; None if unknown.
 
         Negative eigenvalues beyond one for each pressure. Where only their parity is known, a
-        wrong one counts as one mode, and a right one as unknown.
+        wrong one counts as one mode, and a right one as unknown. Loads without a potential leave it
+        at that: a wrong sign of the determinant means that the body diverges, a right one does not
+        exclude that it flutters.
         """
         negative = self._solver.negative_pivots
         if negative is not None:

@@ -46,6 +46,14 @@ EDGE_SHARE = 0.05
 IMBALANCE = 1e-3
 """Largest relative residual after a reused factorization; more is the error of a soft mode."""
 
+PRESSURE_SHARE = 100.0
+"""Bound of the correction of the hydrostatic pressure, relative to the material's initial shear
+modulus and the largest pressure, over that of displacements, in body diagonals. A correction's
+strain is its displacement over a length of the mesh: in bellows the ratio is between 2 and 70."""
+
+PRESSURE_ROUNDING = 1e-9
+"""Relative corrections of the hydrostatic pressure below this one always count as small."""
+
 DIVERGED = 1.0
 """Corrections of so many body diagonals count as divergence."""
 
@@ -58,7 +66,8 @@ class NoCorrection(Exception):
 class Correction:
     """One correction of ``state``, where ``equilibrium`` holds: by ``increment``, to ``moved``.
 
-    ``size``: the largest node's, mm.
+    ``size``: the largest node's, mm; ``pressure_size``: the largest one of the hydrostatic
+    pressure, relative to the initial shear modulus and the pressure itself.
     """
 
     state: State
@@ -66,6 +75,7 @@ class Correction:
     increment: State
     moved: State
     size: float
+    pressure_size: float
 
 
 @dataclass(frozen=True)
@@ -84,6 +94,11 @@ class Attempt:
     direction: State | None = None
     touched: bool = False
     guarded: bool = False
+
+
+def pressure_bound(tolerance: float) -> float:
+    """Bound of a small relative correction of the pressure, for one of displacements."""
+    return max(PRESSURE_SHARE * tolerance, PRESSURE_ROUNDING)
 
 
 @dataclass
@@ -106,7 +121,7 @@ class Newton:
                 "surface."
             )
         mesh = self.problem.mesh
-        self.assembly = Assembly(self.problem)
+        self.assembly = Assembly(self.problem, self.loading.start.displacement)
         self.system = LinearSystem(self.assembly, self.options.linear_solver)
         self.kinematics = Kinematics.of(self.problem, self.assembly.plane, self.loading)
         self.fading_force = self._fading_force()
@@ -157,6 +172,9 @@ class Newton:
     def iterate(self, guess: State, load: float, tolerance: float, onward: bool = False) -> Attempt:
         """Newton iterations at a fixed load from ``guess``, until a correction is small.
 
+        Both fields must be: where supports prescribe how a body deforms, displacements are right at
+        once while a nonlinear volumetric law still leaves the pressure far off.
+
         Once corrections decrease fast, the tangent is that of the state itself and its
         factorization is reused; or, if the path continues ``onward``, the iterations end with a
         small correction by such a tangent. With contact the last correction must not exceed the
@@ -178,7 +196,9 @@ class Newton:
             depth = self.assembly.contacts.depth(found.moved)
             touched |= bool(np.isfinite(depth))
             small = found.size <= min(tolerance * self.problem.mesh.size, depth)
-            fast = found.size < self.options.reuse * previous
+            small &= found.pressure_size <= pressure_bound(tolerance)
+            distance = self.distance(found)
+            fast = distance < self.options.reuse * previous
             if small and (own or not onward):
                 attempt = self._accepted(found, load, iteration, guess, onward)
                 if onward or attempt.failure or not reuse or attempt.imbalance <= IMBALANCE:
@@ -186,7 +206,7 @@ class Newton:
                 fast = False
             reuse = fast and own and not onward
             state = found.moved if small or fast else self._extrapolated(found)
-            previous = found.size
+            previous = distance
         failure = f"Newton did not converge in {iteration} iterations"
         return Attempt(guess, iteration, failure, touched=touched)
 
@@ -207,7 +227,18 @@ class Newton:
         moved = self.kinematics.advanced(state, increment)
         self.effort.iterations += 1
         self.notify("iteration", load, moved, iteration, size)
-        return Correction(state, equilibrium, increment, moved, size)
+        pressure_size = self.pressure_size(increment, moved)
+        return Correction(state, equilibrium, increment, moved, size, pressure_size)
+
+    def distance(self, found: Correction) -> float:
+        """Size of a correction in both fields, the larger one, in body diagonals."""
+        return max(found.size / self.problem.mesh.size, found.pressure_size / PRESSURE_SHARE)
+
+    def pressure_size(self, increment: State, moved: State) -> float:
+        """Largest hydrostatic pressure of an increment, relative to its scale in a state."""
+        changes = np.abs(increment.hydrostatic_pressure).max(initial=0.0)
+        scale = np.abs(moved.hydrostatic_pressure).max(initial=0.0)
+        return float(changes / (self.problem.material.shear_modulus + scale))
 
     def _accepted(
         self, found: Correction, load: float, iterations: int, guess: State, onward: bool

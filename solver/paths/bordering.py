@@ -10,7 +10,7 @@ from solver.arrays import Reals
 from solver.assembly.assembly import Equilibrium
 from solver.assembly.state import State
 from solver.linear.interface import SingularMatrix
-from solver.nonlinear.newton import DIVERGED, Newton
+from solver.nonlinear.newton import DIVERGED, Newton, pressure_bound
 
 Row: TypeAlias = Callable[[State, Equilibrium, Reals, Reals], float]
 """The linearised extra equation: (state, equilibrium there, r, d) -> change of the load.
@@ -71,7 +71,9 @@ def corrected(newton: Newton, guess: State, load: float, row: Row) -> Equilibriu
         state = newton.kinematics.with_motions(moved, load)
         newton.effort.iterations += 1
         newton.notify("iteration", load, state, iteration, correction)
-        if correction <= newton.options.tolerance * size:
+        tolerance = newton.options.tolerance
+        small = newton.pressure_size(increment, state) <= pressure_bound(tolerance)
+        if small and correction <= tolerance * size:
             return equilibrium_point(newton, state, load, iteration)
     return EquilibriumPoint(
         guess, load, iteration, failure=f"no convergence in {iteration} iterations"

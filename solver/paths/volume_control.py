@@ -8,22 +8,27 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
-import numpy as np
-
-from solver.arrays import Reals
-from solver.assembly.assembly import Equilibrium
-from solver.assembly.pressure import enclosed_volume
-from solver.assembly.state import State
-from solver.errors import SolverError
+from solver.nonlinear.checkpoint import Effort
 from solver.nonlinear.events import Listener
 from solver.nonlinear.loading import Loading
 from solver.nonlinear.newton import Newton
 from solver.nonlinear.options import FIRST_STEP, SolverOptions
-from solver.paths.bordering import EquilibriumPoint, corrected, equilibrium_point
-from solver.paths.outcome import Path, solution_of
+from solver.paths.bordering import equilibrium_point
+from solver.paths.held_volume import HeldVolume, at_volume
+from solver.paths.load_stepping import solve
+from solver.paths.outcome import AtStop, Path, Points, solution_of
 from solver.paths.step_control import Segment, StepControl, follow
+from solver.paths.volume_changes import Change, ChangeKind, changes_between, turning
+from solver.paths.volume_checks import (
+    check_changeable,
+    check_closed,
+    check_volumes,
+    seen_sign,
+    signed_targets,
+    volume_at_start,
+)
 from solver.problem.problem import Problem
 from solver.results.solution import PathPoint, Solution
 
@@ -37,88 +42,130 @@ def inflate(
 ) -> Solution:
     """Equilibrium of ``problem`` at a given volume inside its pressurised surfaces.
 
-    The pressure is an unknown. Points of the path need not be stable at constant pressure: see
-    their ``stable``.
+    The pressure is an unknown. Dead loads and prescribed motions are applied first, wholly and at
+    no pressure, as ``solve(problem)`` does; they stay while the volume changes from what it is
+    then. Points of that part of the path have a ``load`` of 1.
+
+    They need not be stable at constant pressure (their ``stable``), nor at a held volume (their
+    ``stable_at_volume``): where other shapes branch off, the path may follow any of them. The
+    message names the pressure at which stability at constant pressure is lost, which is found and
+    has a point, and so is ``limit``; and the first place where another branch begins. Such places
+    are the ``bifurcations``. One counts as such where the number of unstable modes at the held
+    volume changes, or where the path turns sharply (not looked for where surfaces may touch, which
+    turns a path too).
 
     Args:
-        problem: body and supports; its only load is the pressure.
+        problem: body, supports, loads; at least one surface is pressurised.
         volume: inside the pressurised surfaces, mm^3; of a symmetric part as ``enclosed_volume``
-            defines it.
+            defines it. Of surfaces that face outwards, under pressure from outside, the volume of
+            the body within them, with holes in it: ``cavity_volume`` gives it with a minus sign;
+            either sign is taken, and points of the path have the same.
         options: tolerances and sizes of steps, which are fractions of the change of volume.
         listener: is called with an ``Event`` after each correction.
-        stops: volumes before ``volume``, mm^3, at each of which the path has a point.
+        stops: volumes before ``volume``, mm^3, at each of which the path has a point and
+            ``at_stops`` a solution.
 
     Returns:
         The last equilibrium found; ``pressure`` is the one that the volume takes.
 
     Raises:
-        SolverError: other loads than pressure, volumes that are not positive, or not in order
-            between the undeformed one and ``volume``.
+        SolverError: no pressurised surface, a free rim of it or an opening that slides in a plane
+            normal to y elsewhere than at y = 0, a volume inside that cannot change, volumes of the
+            wrong sign, or not in order between the one at no pressure and ``volume``.
     """
     start = time.perf_counter()
-    if problem.loads or problem.supports.prescribed or not problem.pressurised:
-        raise SolverError("inflate: the problem's only load must be the pressure in a cavity.")
-    newton = Newton(problem, Loading.of(problem, 1.0), options or SolverOptions(), listener)
-    segment, points = _followed(newton, volume, stops)
-    end, failure = segment.reached, segment.failure
-    solution = solution_of(newton, Path(end.state, points, failure), 0.0)
-    share = f"{segment.position:.6g} of {volume:.6g} mm³, at {end.load:.4g} MPa"
-    message = f"stopped at {share}: {failure}" if failure else f"reached {share}"
-    message += _stability(points)
-    return replace(solution, message=message, load=1.0, seconds=time.perf_counter() - start)
+    volumes = tuple(float(each) for each in (*stops, volume))
+    check_volumes(volumes)
+    check_closed(problem)
+    options = options or SolverOptions()
+    loaded = _loaded(problem, options, listener)
+    if loaded is not None and not loaded.converged:
+        return replace(loaded, message=f"the loads at no pressure: {loaded.message}")
+    newton = _newton(problem, loaded, options, listener)
+    walk = _walked(newton, volumes, loaded.path if loaded else ())
+    return replace(_solution(newton, walk), seconds=time.perf_counter() - start)
 
 
-def _followed(
-    newton: Newton, volume: float, stops: Sequence[float]
-) -> tuple[Segment[EquilibriumPoint], tuple[PathPoint, ...]]:
-    """From the undeformed volume through ``stops`` to ``volume``: last segment and path."""
-    options, still = newton.options, newton.loading.start
-    rest = _volume(newton, still)
-    points: tuple[PathPoint, ...] = (newton.point(still, 0.0, 0, True),)
-    step = (options.first_step or FIRST_STEP) * abs(volume - rest)
-    segment = Segment(equilibrium_point(newton, still, 0.0), rest, step)
-    for target in _targets(rest, volume, stops):
-        smallest = options.smallest_step * abs(target - segment.position)
-        control = StepControl(options.growth, options.cut, smallest)
-        segment = follow(VolumeStepper(newton), replace(segment, points=()), target, control)
-        points += segment.points
-        if segment.failure:
-            break
-    return segment, points
+def _loaded(problem: Problem, options: SolverOptions, listener: Listener | None) -> Solution | None:
+    """The body under its dead loads and motions at no pressure; None if it has none."""
+    if problem.loads or problem.supports.prescribed:
+        return solve(problem, 0.0, options, listener)
+    return None
 
 
-def _stability(points: tuple[PathPoint, ...]) -> str:
-    """Up to which pressure the points are stable at constant pressure, as text."""
-    lost = next((number for number, point in enumerate(points) if point.stable is False), None)
-    if lost is None:
-        return "."
-    return f"; at constant pressure it is unstable beyond {points[lost - 1].pressure:.4g} MPa."
+def _newton(
+    problem: Problem, loaded: Solution | None, options: SolverOptions, listener: Listener | None
+) -> Newton:
+    """For a load that is the pressure in MPa, from a loaded body on, whose effort counts."""
+    loading = replace(Loading.of(problem, 1.0), constant=True)
+    if loaded is None:
+        return Newton(problem, loading, options, listener)
+    counts = (loaded.newton_iterations, loaded.factorizations)
+    effort = Effort(*counts, loaded.load_steps, loaded.refused_steps)
+    newton = Newton(problem, replace(loading, start=loaded.state), options, listener, effort)
+    newton.began -= loaded.seconds
+    return newton
 
 
 @dataclass(frozen=True)
+class Passed:
+    """A change that a path has passed, at a ``point`` of it."""
+
+    kind: ChangeKind
+    point: PathPoint
+
+
+@dataclass(frozen=True)
+class Step:
+    """The outcome of a step: an equilibrium ``held``, with the ``changes`` on the way to it.
+
+    ``turning``: of the path on that way, rad/mm^3; None if there was none.
+    """
+
+    held: HeldVolume
+    changes: tuple[Change, ...] = ()
+    turning: float | None = None
+
+    @property
+    def failure(self) -> str:
+        """Why there is no equilibrium."""
+        return self.held.failure
+
+
+@dataclass
 class VolumeStepper:
-    """Steps of the volume (mm^3) for ``follow``."""
+    """Steps of the volume (mm^3, signed) for ``follow``.
+
+    ``sign``: of volumes that a user sees against signed ones; ``passed``: the changes so far, in
+    the order of the path, and their points.
+    """
 
     newton: Newton
+    sign: float
+    passed: list[Passed] = field(default_factory=list)
 
-    def attempt(self, segment: Segment[EquilibriumPoint], target: float) -> EquilibriumPoint:
+    def attempt(self, segment: Segment[Step], target: float) -> Step:
         """The equilibrium with the ``target`` volume, counted."""
-        found = _step(self.newton, segment.reached, segment.position, target)
-        if found.failure:
+        before = segment.reached
+        held = at_volume(self.newton, before.held, target)
+        if held.failure:
             self.newton.effort.refused_steps += 1
-        else:
-            self.newton.effort.load_steps += 1
-        return found
+            return Step(held)
+        self.newton.effort.load_steps += 1
+        changes = changes_between(self.newton, before.held, held, before.turning)
+        return Step(held, changes, turning(before.held, held))
 
-    def accepted(self, segment: Segment[EquilibriumPoint]) -> Segment[EquilibriumPoint]:
-        """The segment with a point for its end."""
-        found = segment.reached
-        point = self.newton.point(found.state, found.load, found.iterations, found.stable)
-        return replace(segment, points=(*segment.points, point))
+    def accepted(self, segment: Segment[Step]) -> Segment[Step]:
+        """The segment with points for its end and for the changes before it."""
+        step = segment.reached
+        end, points = self.point(step.held), list[PathPoint]()
+        for change in step.changes:
+            points.append(end if change.at is step.held else self.point(change.at))
+            self.passed.append(Passed(change.kind, points[-1]))
+        inner = [point for point in points if point is not end]
+        return replace(segment, points=(*segment.points, *inner, end))
 
-    def refused(
-        self, segment: Segment[EquilibriumPoint], refusals: int
-    ) -> Segment[EquilibriumPoint]:
+    def refused(self, segment: Segment[Step], refusals: int) -> Segment[Step]:
         """The segment unchanged."""
         return segment
 
@@ -126,36 +173,96 @@ class VolumeStepper:
         """Why no further step may be tried: the solve's budget is spent."""
         return self.newton.exhausted()
 
+    def point(self, held: HeldVolume) -> PathPoint:
+        """Describe an equilibrium; all loads but the pressure act wholly."""
+        found = held.found
+        point = self.newton.point(found.state, found.load, found.iterations, found.stable)
+        volume = self.sign * point.volume
+        return replace(point, load=1.0, volume=volume, stable_at_volume=held.stable)
 
-def _step(newton: Newton, here: EquilibriumPoint, volume: float, wanted: float) -> EquilibriumPoint:
-    """From an equilibrium to the one with the ``wanted`` volume.
 
-    The volume's derivative is minus ``force``: the residual is that of Pi - p V.
+@dataclass(frozen=True)
+class Walk:
+    """A volume-controlled path of ``stepper`` as far as its last ``segment``.
+
+    ``end``: where it goes, mm^3, signed; ``at_stops``: what it reached, the end included.
     """
-    assert here.direction is not None and here.force is not None
-    change = (volume - wanted) / float(here.force @ here.direction)
-    guess = newton.kinematics.advanced(here.state, newton.system.expanded(here.direction), change)
 
-    def row(state: State, equilibrium: Equilibrium, r: Reals, d: Reals) -> float:
-        excess = _volume(newton, state) - wanted
-        return (excess - float(equilibrium.force @ r)) / float(equilibrium.force @ d)
-
-    return corrected(newton, guess, here.load + change, row)
+    stepper: VolumeStepper
+    segment: Segment[Step]
+    end: float
+    points: Points
+    at_stops: tuple[AtStop, ...] = ()
 
 
-def _volume(newton: Newton, state: State) -> float:
-    problem = newton.problem
-    return enclosed_volume(problem.mesh, state.displacement, problem.pressurised)
+def _walked(newton: Newton, volumes: tuple[float, ...], before: Points) -> Walk:
+    """From the volume at no pressure through ``volumes``; ``before``: the path up to there."""
+    state, rest, options = newton.loading.start, volume_at_start(newton), newton.options
+    stepper = VolumeStepper(newton, seen_sign(rest, volumes[-1]))
+    targets = signed_targets(rest, stepper.sign, volumes)
+    held = HeldVolume.of(newton, equilibrium_point(newton, state, 0.0), rest)
+    check_changeable(newton, held)
+    step = (options.first_step or FIRST_STEP) * abs(targets[-1] - rest)
+    segment = Segment(Step(held), rest, step)
+    walk = Walk(stepper, segment, targets[-1], before or (stepper.point(held),))
+    for target in targets:
+        walk = _extended(walk, target, options)
+        if walk.segment.failure:
+            break
+    return walk
 
 
-def _targets(rest: float, volume: float, stops: Sequence[float]) -> list[float]:
-    """Volumes with points, in order from that of the undeformed body."""
-    down = volume < rest
-    targets = sorted({float(v) for v in (*stops, volume)}, reverse=down)
-    finite = all(np.isfinite(targets)) and all(target > 0 for target in targets)
-    if not finite or targets[-1] != volume or (targets[0] - rest) * (volume - rest) < 0:
-        raise SolverError(
-            f"inflate: volumes must be positive and lie between the {rest:.6g} mm³ at rest and "
-            f"the last one, got {list(stops)} and {volume:g} mm³."
-        )
-    return targets
+def _extended(walk: Walk, target: float, options: SolverOptions) -> Walk:
+    """A path followed on to a volume, as far as steps succeed."""
+    smallest = options.smallest_step * abs(target - walk.segment.position)
+    control = StepControl(options.growth, options.cut, smallest)
+    segment = follow(walk.stepper, replace(walk.segment, points=()), target, control)
+    points = (*walk.points, *segment.points)
+    reached = () if segment.failure else (AtStop(segment.reached.held.found.state, points),)
+    return replace(walk, segment=segment, points=points, at_stops=(*walk.at_stops, *reached))
+
+
+def _solution(newton: Newton, walk: Walk) -> Solution:
+    """The solution at a path's end."""
+    segment, stepper = walk.segment, walk.stepper
+    state, failure = segment.reached.held.found.state, segment.failure
+    inner = walk.at_stops if failure else walk.at_stops[:-1]
+    end = solution_of(newton, Path(state, walk.points, failure, at_stops=inner), 0.0)
+    share = f"{stepper.sign * segment.position:.6g} of {stepper.sign * walk.end:.6g} mm³"
+    at_stops = tuple(
+        _told(stop, stepper.passed, f"reached {stop.path[-1].volume:.6g} mm³")
+        for stop in end.at_stops
+    )
+    reached = "stopped at" if failure else "reached"
+    return replace(_told(end, stepper.passed, f"{reached} {share}", failure), at_stops=at_stops)
+
+
+def _told(
+    solution: Solution, passed: Sequence[Passed], reached: str, failure: str = ""
+) -> Solution:
+    """A solution that says, in its message too, what its path has passed."""
+    passed = [each for each in passed if each.point in solution.path]
+    lost = next((each.point for each in passed if each.kind != "turn"), None)
+    branches = [each for each in passed if each.kind != "extremum"]
+    message = f"{reached}, at {solution.pressure:.4g} MPa"
+    message += f": {failure}" if failure else ""
+    if lost is not None:
+        at = f"{lost.pressure:.4g} MPa, at {lost.volume:.6g} mm³"
+        message += f"; at constant pressure it is unstable beyond {at}"
+    message += _of_branch(branches[0]) if branches else ""
+    return replace(
+        solution,
+        message=f"{message}.",
+        load=1.0,
+        limit=None if lost is None else lost.pressure,
+        bifurcations=tuple(each.point for each in branches),
+    )
+
+
+def _of_branch(passed: Passed) -> str:
+    """That another branch begins on the path, as text."""
+    point = passed.point
+    at = f"{point.volume:.6g} mm³ and {point.pressure:.4g} MPa"
+    if passed.kind == "bifurcation" and point.stable_at_volume is False:
+        return f"; from {at} on it is unstable at a held volume too: another branch begins there"
+    return f"; at {at} it turns onto another branch"

@@ -32,6 +32,8 @@ class PathPoint:
         volume: inside the pressurised surfaces, mm^3, see ``enclosed_volume``.
         load: fraction of the whole load.
         stable: whether it is stable at constant load; None where the linear solver cannot tell.
+        stable_at_volume: whether it is stable while its volume is held, on a path of ``inflate``;
+            else, and where the linear solver cannot tell, None.
     """
 
     pressure: float
@@ -41,6 +43,7 @@ class PathPoint:
     volume: float
     load: float = 1.0
     stable: bool | None = None
+    stable_at_volume: bool | None = None
 
 
 @dataclass(frozen=True)
@@ -70,7 +73,8 @@ class Solution:
         plane: tilt (rad) and shift (mm) of the moving plane, zeros without one.
         load: fraction of the whole load.
         limit: pressure at the limit point that ended the path, MPa (fraction of the load where
-            there is no pressure); None without one.
+            there is no pressure), or of ``inflate`` the one beyond which the path is unstable at
+            constant pressure; None without one.
         stopped_by: what ended the path; empty if ``converged``.
         at_stops: the equilibria at the stops that were asked for, as far as they were reached, in
             ascending order of the load.
@@ -78,6 +82,7 @@ class Solution:
             of the whole load.
 
             *Shape:* (n, 3) in N; (0, 3) if there is none.
+        bifurcations: points on a path of ``inflate`` at which another branch begins.
     """
 
     problem: Problem
@@ -100,6 +105,7 @@ class Solution:
     stopped_by: StopKind = ""
     at_stops: tuple[Solution, ...] = ()
     remaining_force: Reals = field(default_factory=lambda: np.zeros((0, 3)))
+    bifurcations: tuple[PathPoint, ...] = ()
 
     @property
     def stable(self) -> bool | None:
@@ -111,6 +117,11 @@ class Solution:
         """Sentences on what makes the result less reliable than it looks: folded elements."""
         warning = folds_of(self.problem.mesh, self.displacement).warning
         return (warning,) if warning else ()
+
+    @property
+    def stable_at_volume(self) -> bool | None:
+        """Whether a state of ``inflate`` is stable while its volume is held; None if unknown."""
+        return self.path[-1].stable_at_volume
 
     @property
     def state(self) -> State:
@@ -134,7 +145,7 @@ def cavity_volume(mesh: Mesh, displacement: Reals, surfaces: tuple[str, ...]) ->
         surfaces: names of the surfaces around the cavity; see ``enclosed_volume`` for open ones.
 
     Returns:
-        mm^3.
+        mm^3; negative for surfaces that face outwards, around the body.
 
     Raises:
         SolverError: an unknown surface.

@@ -15,6 +15,7 @@ FAMILIES = (
     "hard_supports",
     "hard_inputs",
     "hard_walks",
+    "hard_volumes",
     "hard_sameness",
     "hard_designs",
 )

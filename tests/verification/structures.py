@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from references import DATA
 
-from solver import Event, Mesh, Problem, Solution, SolverOptions, solve
+from solver import Mesh, Problem, Solution, SolverOptions, solve
 from solver.arrays import Reals
 
 
@@ -40,14 +40,6 @@ def converged(solution: Solution) -> Solution:
 
 
 def along(problem: Problem, pressures: Sequence[float], options: SolverOptions) -> list[Reals]:
-    """Displacements (n, 3) at ascending pressures (MPa), in one walk from zero."""
-    reached: dict[float, Reals] = {}
-
-    def remember(event: Event) -> None:
-        if event.checkpoint is not None:
-            pressure = event.checkpoint.points[-1].pressure
-            reached[float(pressure)] = event.checkpoint.reached.displacement
-
-    converged(solve(problem, pressures[-1], options, remember, stops=pressures[:-1]))
-    steps = np.array(list(reached))
-    return [reached[steps[abs(steps - pressure).argmin()]] for pressure in pressures]
+    """Displacements (n, 3) at pressures (MPa) that grow from zero."""
+    solution = converged(solve(problem, pressures[-1], options, stops=pressures[:-1]))
+    return [stop.displacement for stop in (*solution.at_stops, solution)]

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from inertia import needs_feral
 
-from solver import Mesh, Ogden, Problem, Solution, SolverOptions, Supports, solve
+from solver import Mesh, Ogden, Problem, Solution, SolverOptions, Supports, Traction, solve
 from solver.arrays import Reals
 from solver.linear.fallback import Fallback
 from solver.linear.feral import Feral
@@ -80,7 +80,8 @@ def test_what_both_refuse_is_singular_and_the_second_is_not_named(number: Fallba
 
 
 def pulled(mesh: Mesh, material: Ogden) -> Solution:
-    return solve(Problem(mesh, material, Supports(clamped=("x0",)), ("x1",)), 0.05, FERAL)
+    loads = (Traction("x1", (0.05, 0.0, 0.0)),)
+    return solve(Problem(mesh, material, Supports(clamped=("x0",)), loads=loads), options=FERAL)
 
 
 @needs_feral
