@@ -112,7 +112,7 @@ def _check_motion(mesh: Mesh, supports: Supports, surface: str) -> None:
         )
 
 
-LOADS_COMPARED = (0.25, 0.5, 1.0)
+LOADS_COMPARED = (1.0, 0.5, 0.25)
 """Fractions of the load at which motions of neighbouring surfaces are compared."""
 
 
