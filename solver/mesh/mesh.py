@@ -86,7 +86,7 @@ class Mesh:
     def triangles(self, *names: str) -> Integers:
         """All six-node triangles of the named surfaces, (k, 6); ``SolverError`` if unknown."""
         for name in names:
-            if name not in self.surfaces:
+            if not isinstance(name, str) or name not in self.surfaces:
                 known = ", ".join(sorted(self.surfaces)) or "none"
                 raise SolverError(f"mesh: no surface is called {name!r}; known surfaces: {known}.")
         parts = [self.surfaces[name] for name in names]

@@ -166,7 +166,7 @@ def finer_at_the_rim() -> tuple[Finding, ...]:
     return (
         true("free: ends before the whole strain", not free.solution.converged),
         true("kept off the plates: reached on both", kept.solution.converged),
-        at_most("iterations", kept.solution.newton_iterations, 50),
+        below("iterations", kept.solution.newton_iterations, 50),
         exactly("folded elements", kept.folds + fine.folds, 0),
         at_most("forces of two meshes differ by", kept.force / fine.force - 1, 0.01),
     )
@@ -180,7 +180,7 @@ def bonded_disc() -> tuple[Finding, ...]:
     near = [np.linalg.norm(at[:, :2], axis=1).min() for at in first_row]
     return (
         true("reached", all(each.converged for each in found)),
-        at_most("iterations", max(each.newton_iterations for each in found), 30),
+        below("iterations", max(each.newton_iterations for each in found), 30),
         within("force over μ h²", forces[-1], 31.0, 31.4),
         at_most("meshes differ by", forces[0] / forces[1] - 1, 0.005),
         true("folds left in the first row at the rim are told", min(near) > 2.7, near),
