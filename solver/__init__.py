@@ -20,7 +20,8 @@ if TYPE_CHECKING:
     from solver.nonlinear.events import Event
     from solver.nonlinear.finite_motion import rotation
     from solver.nonlinear.options import SolverOptions
-    from solver.paths.arc_length import Limit, Trace, trace
+    from solver.paths.arc_length import Trace, trace
+    from solver.paths.limits import Limit
     from solver.paths.load_stepping import solve
     from solver.paths.volume_control import inflate
     from solver.problem.loads import BodyForce, Couple, PointForce, Traction
@@ -74,7 +75,8 @@ __getattr__ = imported_when_asked_for(
         "adaptivity.transfer": ("transfer",),
         "material.ogden": ("Ogden",),
         "mesh.mesh": ("Mesh",),
-        "paths.arc_length": ("Limit", "Trace", "trace"),
+        "paths.arc_length": ("Trace", "trace"),
+        "paths.limits": ("Limit",),
         "nonlinear.checkpoint": ("Checkpoint",),
         "nonlinear.finite_motion": ("rotation",),
         "paths.load_stepping": ("solve",),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Sequence
 from dataclasses import astuple, dataclass, replace
@@ -23,7 +24,7 @@ from solver.problem.problem import Problem
 from solver.results.solution import PathPoint, Solution, StopKind
 
 if TYPE_CHECKING:
-    from solver.paths.arc_length import Limit
+    from solver.paths.limits import Limit
 
 LIMIT_DISTANCE = 0.05
 """Largest distance of a limit point that explains a stop, as a fraction of the load reached."""
@@ -286,29 +287,50 @@ def _stopped(newton: Newton, segment: Segment[Attempt], points: Points) -> Path:
     """
     kind, load = _stop_kind(newton, segment), segment.position
     with newton.beyond_budget():
-        state, load, points = _last_equilibrium(newton, segment.reached.state, load, points)
+        state, load, points, tolerance = _last_equilibrium(
+            newton, segment.reached.state, load, points
+        )
     limit = _limit_near(newton, state, load) if kind == "step" and load else None
+    coarse = f" (its last state is in equilibrium to {tolerance:.2g} diagonals only)"
+    note = coarse if tolerance > newton.options.tolerance else ""
     if limit is None:
-        return Path(state, points, segment.failure, stopped_by=kind)
-    return Path(
-        state, points, limit.describe(newton.loading.pressures[1]), limit.point.load, "limit"
-    )
+        return Path(state, points, segment.failure + note, stopped_by=kind)
+    reason = limit.describe(max(newton.loading.pressures, key=abs)) + note
+    return Path(state, points, reason, limit.point.load, "limit")
 
 
 def _last_equilibrium(
     newton: Newton, state: State, load: float, points: Points
-) -> tuple[State, float, Points]:
-    """A path's end to the full tolerance; at a lower load where that is not met at ``load``."""
+) -> tuple[State, float, Points, float]:
+    """A path's end, and the tolerance to which it is in equilibrium, in body diagonals.
+
+    That is the full one; at a lower load where it is not met at ``load``. Where it is not met at
+    lower loads either, the state that was reached is kept, corrected as far as that goes.
+    """
+    full = newton.options.tolerance
     for lower in (share * load for share in BACKING_OFF):
-        found = newton.correct(state, lower, newton.options.tolerance)
+        found = newton.correct(state, lower, full)
         if found.failure:
             continue
         if lower == load:
-            return found.state, load, _corrected(newton, found, load, points)
+            return found.state, load, _corrected(newton, found, load, points), full
         before = tuple(point for point in points if point.load < lower)
         point = newton.point(found.state, lower, found.iterations, newton.system.stable)
-        return found.state, lower, (*before, point)
-    return State.zero(newton.problem), 0.0, points[:1]
+        return found.state, lower, (*before, point), full
+    if load == 0:
+        return state, load, points, full
+    for tolerance in _coarser(newton):
+        found = newton.correct(state, load, tolerance)
+        if not found.failure:
+            return found.state, load, _corrected(newton, found, load, points), tolerance
+    return state, load, points, newton.loose_tolerance
+
+
+def _coarser(newton: Newton) -> list[float]:
+    """Tolerances between the full one and that of states on the way, ten times coarser each."""
+    full, loose = newton.options.tolerance, newton.loose_tolerance
+    count = max(0, math.ceil(math.log10(loose / full)))
+    return [full * 10**power for power in range(1, count)] + [max(full, loose)]
 
 
 def _stop_kind(newton: Newton, segment: Segment[Attempt]) -> StopKind:

@@ -83,5 +83,10 @@ def _reached(newton: Newton, state: State, points: Points) -> dict[str, Any]:
 def _share(loading: Loading, load: float) -> str:
     """The load reached, relative to the whole one, as text."""
     if any(loading.pressures):
-        return f"{loading.pressure(load):.4g} of {loading.pressures[1]:.4g} MPa"
-    return f"{100 * load:.4g} % of the load"
+        return f"{figures(loading.pressure(load))} of {figures(loading.pressures[1])} MPa"
+    return f"{figures(100 * load)} % of the load"
+
+
+def figures(value: float) -> str:
+    """Four figures of a number as text, zero without a sign."""
+    return f"{value + 0.0:.4g}"

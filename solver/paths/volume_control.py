@@ -18,7 +18,7 @@ from solver.nonlinear.options import FIRST_STEP, SolverOptions
 from solver.paths.bordering import equilibrium_point
 from solver.paths.held_volume import HeldVolume, at_volume
 from solver.paths.load_stepping import solve
-from solver.paths.outcome import AtStop, Path, Points, solution_of
+from solver.paths.outcome import AtStop, Path, Points, figures, solution_of
 from solver.paths.step_control import Segment, StepControl, follow
 from solver.paths.volume_changes import Change, ChangeKind, changes_between, turning
 from solver.paths.volume_checks import (
@@ -39,6 +39,7 @@ def inflate(
     options: SolverOptions | None = None,
     listener: Listener | None = None,
     stops: Sequence[float] = (),
+    after: Solution | None = None,
 ) -> Solution:
     """Equilibrium of ``problem`` at a given volume inside its pressurised surfaces.
 
@@ -64,6 +65,8 @@ def inflate(
         listener: is called with an ``Event`` after each correction.
         stops: volumes before ``volume``, mm^3, at each of which the path has a point and
             ``at_stops`` a solution.
+        after: an equilibrium of a stage before, to start from at its pressure, as for ``solve``.
+            Other loads and supports than those of that stage are applied first, at that pressure.
 
     Returns:
         The last equilibrium found; ``pressure`` is the one that the volume takes.
@@ -78,26 +81,44 @@ def inflate(
     check_volumes(volumes)
     check_closed(problem)
     options = options or SolverOptions()
-    loaded = _loaded(problem, options, listener)
+    loaded = _loaded(problem, options, listener, after)
     if loaded is not None and not loaded.converged:
-        return replace(loaded, message=f"the loads at no pressure: {loaded.message}")
-    newton = _newton(problem, loaded, options, listener)
-    walk = _walked(newton, volumes, loaded.path if loaded else ())
+        return replace(loaded, message=f"the loads before the volume: {loaded.message}")
+    newton = _newton(problem, loaded, options, listener, after)
+    walk = _walked(newton, volumes, loaded)
     return replace(_solution(newton, walk), seconds=time.perf_counter() - start)
 
 
-def _loaded(problem: Problem, options: SolverOptions, listener: Listener | None) -> Solution | None:
-    """The body under its dead loads and motions at no pressure; None if it has none."""
-    if problem.loads or problem.supports.prescribed:
-        return solve(problem, 0.0, options, listener)
+def _loaded(
+    problem: Problem, options: SolverOptions, listener: Listener | None, after: Solution | None
+) -> Solution | None:
+    """The body under its dead loads and motions before its volume changes; None if unloaded."""
+    if after is not None and _goes_on(problem, after.problem):
+        start = replace(after, path=after.path[-1:], converged=True, seconds=0.0)
+        return replace(start, newton_iterations=0, factorizations=0, load_steps=0, refused_steps=0)
+    if problem.loads or problem.supports.prescribed or after is not None:
+        pressure = Loading.of(problem, 0.0, after).pressures[0]
+        return solve(problem, pressure, options, listener, after=after)
     return None
 
 
+def _goes_on(problem: Problem, former: Problem) -> bool:
+    """Whether a stage has the loads and supports of the one before, and leads nothing on."""
+    same = (problem.loads, problem.supports, set(problem.pressurised)) == (
+        former.loads, former.supports, set(former.pressurised),
+    )  # fmt: skip
+    return same and not problem.supports.prescribed
+
+
 def _newton(
-    problem: Problem, loaded: Solution | None, options: SolverOptions, listener: Listener | None
+    problem: Problem,
+    loaded: Solution | None,
+    options: SolverOptions,
+    listener: Listener | None,
+    after: Solution | None,
 ) -> Newton:
     """For a load that is the pressure in MPa, from a loaded body on, whose effort counts."""
-    loading = replace(Loading.of(problem, 1.0), constant=True)
+    loading = replace(Loading.of(problem, 1.0, after), constant=True, pressures=(0.0, 1.0))
     if loaded is None:
         return Newton(problem, loading, options, listener)
     counts = (loaded.newton_iterations, loaded.factorizations)
@@ -177,8 +198,11 @@ class VolumeStepper:
         """Describe an equilibrium; all loads but the pressure act wholly."""
         found = held.found
         point = self.newton.point(found.state, found.load, found.iterations, found.stable)
-        volume = self.sign * point.volume
-        return replace(point, load=1.0, volume=volume, stable_at_volume=held.stable)
+        return replace(self.seen(point), load=1.0, stable_at_volume=held.stable)
+
+    def seen(self, point: PathPoint) -> PathPoint:
+        """A point with the user's sign of volumes."""
+        return replace(point, volume=self.sign * point.volume)
 
 
 @dataclass(frozen=True)
@@ -195,16 +219,18 @@ class Walk:
     at_stops: tuple[AtStop, ...] = ()
 
 
-def _walked(newton: Newton, volumes: tuple[float, ...], before: Points) -> Walk:
-    """From the volume at no pressure through ``volumes``; ``before``: the path up to there."""
+def _walked(newton: Newton, volumes: tuple[float, ...], loaded: Solution | None) -> Walk:
+    """From the volume of the ``loaded`` or unloaded body through ``volumes``."""
     state, rest, options = newton.loading.start, volume_at_start(newton), newton.options
     stepper = VolumeStepper(newton, seen_sign(rest, volumes[-1]))
     targets = signed_targets(rest, stepper.sign, volumes)
-    held = HeldVolume.of(newton, equilibrium_point(newton, state, 0.0), rest)
+    pressure = loaded.pressure if loaded else 0.0
+    held = HeldVolume.of(newton, equilibrium_point(newton, state, pressure), rest)
     check_changeable(newton, held)
     step = (options.first_step or FIRST_STEP) * abs(targets[-1] - rest)
     segment = Segment(Step(held), rest, step)
-    walk = Walk(stepper, segment, targets[-1], before or (stepper.point(held),))
+    before = [stepper.seen(point) for point in loaded.path] if loaded else [stepper.point(held)]
+    walk = Walk(stepper, segment, targets[-1], tuple(before))
     for target in targets:
         walk = _extended(walk, target, options)
         if walk.segment.failure:
@@ -244,10 +270,10 @@ def _told(
     passed = [each for each in passed if each.point in solution.path]
     lost = next((each.point for each in passed if each.kind != "turn"), None)
     branches = [each for each in passed if each.kind != "extremum"]
-    message = f"{reached}, at {solution.pressure:.4g} MPa"
+    message = f"{reached}, at {figures(solution.pressure)} MPa"
     message += f": {failure}" if failure else ""
     if lost is not None:
-        at = f"{lost.pressure:.4g} MPa, at {lost.volume:.6g} mm³"
+        at = f"{figures(lost.pressure)} MPa, at {lost.volume:.6g} mm³"
         message += f"; at constant pressure it is unstable beyond {at}"
     message += _of_branch(branches[0]) if branches else ""
     return replace(
@@ -262,7 +288,7 @@ def _told(
 def _of_branch(passed: Passed) -> str:
     """That another branch begins on the path, as text."""
     point = passed.point
-    at = f"{point.volume:.6g} mm³ and {point.pressure:.4g} MPa"
+    at = f"{point.volume:.6g} mm³ and {figures(point.pressure)} MPa"
     if passed.kind == "bifurcation" and point.stable_at_volume is False:
         return f"; from {at} on it is unstable at a held volume too: another branch begins there"
     return f"; at {at} it turns onto another branch"

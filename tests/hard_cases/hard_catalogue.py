@@ -18,6 +18,7 @@ FAMILIES = (
     "hard_reactions",
     "hard_folds",
     "hard_walks",
+    "hard_limits",
     "hard_volumes",
     "hard_sameness",
     "hard_designs",

@@ -13,6 +13,7 @@ from solver.nonlinear.events import Guard
 from solver.nonlinear.loading import Loading
 from solver.nonlinear.newton import Attempt, Newton
 from solver.paths import load_stepping
+from solver.paths.outcome import figures
 from solver.paths.step_control import StepControl
 
 PLANES = Supports(symmetry={"x0": 0, "y0": 1, "z0": 2})
@@ -128,7 +129,26 @@ def test_where_the_end_of_a_path_fails_the_full_tolerance_a_lower_equilibrium_is
 
     monkeypatch.setattr(Newton, "correct", stubborn)
     points = tuple(newton.point(good.state, load, 1, True) for load in (0.0, 0.3, 0.5))
-    state, load, kept = load_stepping._last_equilibrium(newton, good.state, 0.5, points)
+    state, load, kept, tolerance = load_stepping._last_equilibrium(newton, good.state, 0.5, points)
+    assert tolerance == newton.options.tolerance
     assert load == pytest.approx(0.98 * 0.5)
     assert [point.load for point in kept] == [0.0, 0.3, load]
     assert np.abs(state.displacement).max() < np.abs(good.displacement).max()
+
+
+def test_a_path_that_never_meets_the_full_tolerance_keeps_the_last_state(ball: Problem) -> None:
+    """Not the unloaded body: what was reached, corrected as far as that goes, and it says so."""
+    unattainable = 1e-20
+    ended = solve(ball, 0.5 * LIMIT, SolverOptions(tolerance=unattainable))
+    assert not ended.converged and ended.stopped_by == "step"
+    assert 0.7 < ended.load < 1 and ended.path[-1].load == ended.load
+    assert "its last state is in equilibrium to" in ended.message
+    there = solve(ball, ended.pressure, SolverOptions(tolerance=1e-12))
+    assert ended.displacement == pytest.approx(there.displacement, abs=1e-8)
+
+
+def test_no_message_has_a_zero_with_a_sign(ball: Problem) -> None:
+    ended = solve(ball, -0.01, SolverOptions(seconds=1e-9))
+    assert ended.message.startswith("stopped at 0 of -0.01 MPa")
+    assert not np.signbit(ended.path[0].pressure) and not np.signbit(ended.pressure)
+    assert figures(-0.0) == "0" and figures(-0.25) == "-0.25"

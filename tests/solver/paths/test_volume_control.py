@@ -218,7 +218,7 @@ def test_loads_that_are_not_reached_end_the_walk_before_any_pressure() -> None:
     problem = Problem(mesh, NEO_HOOKE, PLANES, ("inside",), (drawn,))
     ended = inflate(problem, 1000.0, SolverOptions(maximum_steps=2))
     assert not ended.converged and ended.pressure == 0 and ended.stopped_by == "budget"
-    assert ended.message.startswith("the loads at no pressure: stopped at")
+    assert ended.message.startswith("the loads before the volume: stopped at")
     assert all(point.pressure == 0 for point in ended.path)
 
 
@@ -259,6 +259,33 @@ def test_a_flat_membrane_is_blown_up_from_no_volume(box: Meshes, ninjaflex: Ogde
     pumped = inflate(problem, 80.0, TIGHT)
     again = solve(problem, pumped.pressure, TIGHT)
     assert again.path[-1].volume == pytest.approx(80.0, rel=1e-5)
+
+
+def test_a_volume_goes_on_from_a_stage_beyond_the_limit_of_the_pressure() -> None:
+    """There no pressure holds the body, and only the volume can go on."""
+    problem = tube(12, 1)
+    first = grown(problem, 4.0, 0.02)
+    assert first.limit is not None and first.stable is False
+    on = inflate(problem, 4.5 * at_rest(problem), TIGHT, after=first)
+    at_once = grown(problem, 4.5, 0.02)
+    assert on.pressure == pytest.approx(at_once.pressure, rel=1e-6)
+    assert on.path[0].volume == pytest.approx(first.path[-1].volume)
+    assert on.load_steps < at_once.load_steps
+
+
+def test_a_volume_goes_on_from_a_pressure_with_other_loads_applied_first() -> None:
+    """Blown up, pulled outwards at that pressure, blown up further: as pulled first."""
+    mesh = sphere_mesh(10.0, 12.0, 1, 3)
+    traction = (Traction("outside", lambda x: 0.1 * x / np.linalg.norm(x, axis=1)[:, None]),)
+    plain = Problem(mesh, NEO_HOOKE, PLANES, ("inside",))
+    pulled = Problem(mesh, NEO_HOOKE, PLANES, ("inside",), traction)
+    wanted = 1.5 * cavity_volume(mesh, np.zeros_like(mesh.nodes), ("inside",))
+    blown = solve(plain, 0.05, TIGHT)
+    on = inflate(pulled, wanted, TIGHT, after=blown)
+    at_once = inflate(pulled, wanted, TIGHT)
+    assert on.converged and on.path[0].pressure == pytest.approx(0.05)
+    assert on.pressure == pytest.approx(at_once.pressure, rel=1e-6)
+    assert on.displacement == pytest.approx(at_once.displacement, abs=1e-6)
 
 
 def test_states_at_stops_are_whole_solutions(tmp_path: Path) -> None:
