@@ -45,13 +45,13 @@ def members_of(what: str, given: object, kinds: tuple[type, ...]) -> tuple[objec
     return members
 
 
-def instance(what: str, given: object, kind: type, optional: bool = False) -> None:
+def check_instance(what: str, given: object, kind: type, optional: bool = False) -> None:
     """Raise ``SolverError`` unless ``given`` is of a ``kind``, or None if ``optional``."""
     if not isinstance(given, kind) and not (optional and given is None):
         raise SolverError(f"{what} must be {_alternatives((kind,))}, got {shown(given)}.")
 
 
-def number(what: str, given: object) -> None:
+def check_number(what: str, given: object) -> None:
     """Raise ``SolverError`` unless ``given`` is a real number, NaN and infinity included."""
     if not isinstance(given, Real) or isinstance(given, bool):
         raise SolverError(f"{what} must be a number, got {shown(given)}.")
@@ -63,7 +63,7 @@ def numbers(what: str, given: object) -> tuple[float, ...]:
         raise SolverError(f"{what} must be a tuple of numbers, got {shown(given)}.")
     members = tuple(given)
     for member in members:
-        number(f"{what}: each", member)
+        check_number(f"{what}: each", member)
     return tuple(float(member) for member in members)
 
 

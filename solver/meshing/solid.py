@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from solver.arrays import Reals
 from solver.errors import MeshingError, SolverError
-from solver.input_types import instance, names, number, shown
+from solver.input_types import check_instance, check_number, names, shown
 from solver.mesh.elements import TETRAHEDRON_EDGES
 from solver.mesh.mesh import Mesh
 from solver.mesh.mid_nodes import SMALLEST_RATIO, jacobian_ratios, relaxed
@@ -62,8 +62,8 @@ class MeshOptions:
 
     def __post_init__(self) -> None:
         for name in ("size", "elements_per_circle", "smallest_size"):
-            number(f"mesh: {name}", getattr(self, name))
-        instance("mesh: field", self.field, SizeField, optional=True)
+            check_number(f"mesh: {name}", getattr(self, name))
+        check_instance("mesh: field", self.field, SizeField, optional=True)
         if not 0 < self.smallest_size <= self.size < np.inf:
             raise SolverError(
                 f"mesh: size = {self.size:g} mm must be finite and at least smallest_size = "
@@ -134,8 +134,8 @@ def _check_kinds(brep: object, options: object, seconds: float) -> None:
             "mesh: brep must be a Path of a BREP file or the content of one as bytes, got "
             f"{shown(brep)}."
         )
-    instance("mesh: options", options, MeshOptions, optional=True)
-    number("mesh: seconds", seconds)
+    check_instance("mesh: options", options, MeshOptions, optional=True)
+    check_number("mesh: seconds", seconds)
     if not 0 < seconds < np.inf:
         raise SolverError(f"mesh: seconds = {seconds:g} must be finite and above 0.")
 

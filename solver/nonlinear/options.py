@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from solver.errors import SolverError
-from solver.input_types import number
+from solver.input_types import check_number
 
 FIRST_STEP = 0.1
 """Default, as a fraction of the load."""
@@ -54,7 +54,7 @@ class SolverOptions:
             value = getattr(self, name)
             if name in MAY_BE_MISSING and value is None:
                 continue
-            number(f"solver: {name}", value)
+            check_number(f"solver: {name}", value)
             if not low < value <= high:
                 raise SolverError(
                     f"solver: {name} must be above {low} and at most {high}, got {value}."

@@ -11,7 +11,7 @@ import numpy as np
 
 from solver.arrays import Integers, Reals
 from solver.errors import SolverError
-from solver.input_types import number, shown
+from solver.input_types import check_number, shown
 from solver.mesh.elements import Rule, tetrahedron_rule, triangle_rule
 from solver.mesh.mesh import Mesh
 
@@ -111,7 +111,7 @@ def couple(loads: Sequence[Load]) -> float:
     """Sum of the couples on the moving plane, N mm; ``SolverError`` if it is not finite."""
     couples = [load for load in loads if isinstance(load, Couple)]
     for load in couples:
-        number("load: a couple's moment", load.moment)
+        check_number("load: a couple's moment", load.moment)
     moment = math.fsum(load.moment for load in couples)
     if not math.isfinite(moment):
         raise SolverError(f"load: a couple's moment must be a finite number of N mm, got {moment}.")

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from solver.errors import SolverError
-from solver.input_types import instance, members_of, names, number, numbers
+from solver.input_types import check_instance, check_number, members_of, names, numbers
 from solver.material.law import Hyperelastic
 from solver.mesh.mesh import Mesh
 from solver.problem.supports import Supports
@@ -63,8 +63,8 @@ class Contact:
     position: float = 0.0
 
     def __post_init__(self) -> None:
-        number("contacts: penetration", self.penetration)
-        number("contacts: position", self.position)
+        check_number("contacts: penetration", self.penetration)
+        check_number("contacts: position", self.position)
         if self.axis not in (None, 0, 1, 2):
             raise SolverError(f"contacts: the plane's axis must be 0, 1 or 2, got {self.axis}.")
         if not 0 < self.penetration < np.inf or not np.isfinite(self.position):
@@ -134,12 +134,12 @@ class Problem:
         """Raise ``SolverError`` for values of another kind; sequences become tuples."""
         from solver.problem.loads import LOAD_KINDS
 
-        instance("mesh", self.mesh, Mesh)
-        instance("material", self.material, Hyperelastic)
-        instance("supports", self.supports, Supports)
-        instance("axis", self.axis, SlenderAxis, optional=True)
-        instance("moving_plane", self.moving_plane, str, optional=True)
-        number("sharp_edge_radius", self.sharp_edge_radius)
+        check_instance("mesh", self.mesh, Mesh)
+        check_instance("material", self.material, Hyperelastic)
+        check_instance("supports", self.supports, Supports)
+        check_instance("axis", self.axis, SlenderAxis, optional=True)
+        check_instance("moving_plane", self.moving_plane, str, optional=True)
+        check_number("sharp_edge_radius", self.sharp_edge_radius)
         object.__setattr__(self, "pressurised", names("pressurised", self.pressurised))
         object.__setattr__(self, "loads", members_of("loads", self.loads, LOAD_KINDS))
 

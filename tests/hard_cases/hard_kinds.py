@@ -23,6 +23,7 @@ from solver import (
     Supports,
     Traction,
     solve,
+    trace,
 )
 from solver.material.mooney_rivlin import MooneyRivlin
 from solver.meshing import MeshOptions, mesh_solid
@@ -128,6 +129,9 @@ def loads() -> Calls:
             lambda bad=bad: solve(_cell(Couple(bad))), "a couple's moment"
         )  # fmt: skip
         calls[f"penetration {bad!r}"] = (lambda bad=bad: Contact("x1", bad, 0), "penetration")
+    for bad in ("0.1", None, (0.1,)):
+        calls[f"solve at {bad!r}"] = (lambda bad=bad: solve(_problem(), bad), "pressure must be")
+        calls[f"trace to {bad!r}"] = (lambda bad=bad: trace(_problem(), bad), "pressure must be")
     for name in ("first_step", "growth", "tolerance", "maximum_steps", "seconds"):
         calls[f"option {name}"] = (lambda name=name: SolverOptions(**{name: "1"}), name)
     for bad in (0, "y0 ", ("y0",)):
