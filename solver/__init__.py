@@ -24,47 +24,62 @@ if TYPE_CHECKING:
     from solver.paths.limits import Limit
     from solver.paths.load_stepping import solve
     from solver.paths.volume_control import inflate
+    from solver.problem.contacts import Contact, RigidPlane
     from solver.problem.loads import BodyForce, Couple, PointForce, Traction
-    from solver.problem.problem import Contact, Problem, SlenderAxis
+    from solver.problem.problem import Problem, SlenderAxis
+    from solver.problem.springs import FoundationSpring, NodeSpring
     from solver.problem.supports import Supports
+    from solver.results.contacts import ContactForce, contact_forces
+    from solver.results.energy import Potential, potential, strain_energy
     from solver.results.folds import Folds, folded_elements
     from solver.results.reactions import Reaction, reaction
     from solver.results.solution import PathPoint, Solution, cavity_volume
     from solver.results.stress import Peak, nodal_cauchy, nodal_von_mises, peak_von_mises
     from solver.results.vtu import write_vtu
+    from solver.results.work import Work, work
 
 __all__ = [
     "BodyForce",
     "Checkpoint",
     "Contact",
+    "ContactForce",
     "Couple",
     "Event",
     "Folds",
+    "FoundationSpring",
     "Limit",
     "Mesh",
+    "NodeSpring",
     "Ogden",
     "PathPoint",
     "Peak",
     "PointForce",
+    "Potential",
     "Problem",
     "Reaction",
+    "RigidPlane",
     "SlenderAxis",
     "Solution",
     "SolverOptions",
     "Supports",
     "Trace",
     "Traction",
+    "Work",
     "cavity_volume",
+    "contact_forces",
     "folded_elements",
     "inflate",
     "nodal_cauchy",
     "nodal_von_mises",
     "peak_von_mises",
+    "potential",
     "reaction",
     "rotation",
     "solve",
+    "strain_energy",
     "trace",
     "transfer",
+    "work",
     "write_vtu",
 ]
 
@@ -84,12 +99,17 @@ __getattr__ = imported_when_asked_for(
         "nonlinear.options": ("SolverOptions",),
         "paths.volume_control": ("inflate",),
         "problem.loads": ("BodyForce", "Couple", "PointForce", "Traction"),
-        "problem.problem": ("Contact", "Problem", "SlenderAxis"),
+        "problem.contacts": ("Contact", "RigidPlane"),
+        "problem.problem": ("Problem", "SlenderAxis"),
+        "problem.springs": ("FoundationSpring", "NodeSpring"),
+        "results.contacts": ("ContactForce", "contact_forces"),
+        "results.energy": ("Potential", "potential", "strain_energy"),
         "results.folds": ("Folds", "folded_elements"),
         "results.reactions": ("Reaction", "reaction"),
         "problem.supports": ("Supports",),
         "results.solution": ("PathPoint", "Solution", "cavity_volume"),
         "results.vtu": ("write_vtu",),
+        "results.work": ("Work", "work"),
         "results.stress": ("Peak", "nodal_cauchy", "nodal_von_mises", "peak_von_mises"),
     },
 )

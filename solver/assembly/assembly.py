@@ -9,10 +9,11 @@ from numpy.typing import NDArray
 
 from solver.arrays import Integers, Reals
 from solver.assembly.colouring import chunks
-from solver.assembly.contact import Contacts
+from solver.assembly.contact import Contacts, contact_pairs
 from solver.assembly.free_rim import FreeRim
 from solver.assembly.moving_plane import MovingPlane
 from solver.assembly.pressure import pressure_facets
+from solver.assembly.springs import Springs
 from solver.assembly.state import State
 from solver.kernels.assembly import Places, assemble, assemble_plane, total_energy
 from solver.kernels.element import Solid
@@ -23,6 +24,7 @@ from solver.mesh.checks import check_elements
 from solver.mesh.elements import tetrahedron_rule
 from solver.problem.loads import couple, nodal_forces
 from solver.problem.problem import Problem
+from solver.problem.springs import stiffness_matrix
 from solver.problem.supports import Supports
 from solver.problem.unknowns import Numbering, number_unknowns
 
@@ -81,9 +83,10 @@ class Assembly:
         if self.plane is not None:
             self.dead_force[self.numbering.plane[0]] += couple(problem.loads)
         self._facets = self._pressure_facets()
+        self.springs = Springs.of(problem, self.numbering, self.pattern)
         still = np.zeros(mesh.nodes.shape) if start is None else start
         self._rim = FreeRim.of(problem, self.numbering, self.pattern, still)
-        self.contacts = Contacts(problem, self.numbering, self.plane, self.pattern)
+        self.contacts = Contacts(problem, self.numbering, self.plane, self.pattern, still)
 
     def evaluate(
         self, state: State, pressure: float, tangent: bool = True, load: float = 0.0
@@ -95,7 +98,8 @@ class Assembly:
         smallest = self._add_solid(state, tangent, residual, values)
         self._add_pressure(state, pressure, tangent, force, values)
         residual += pressure * force - load * self.dead_force
-        values, pattern = self.contacts.add(state, tangent, residual, values)
+        self._add_springs(state, tangent, residual, values)
+        values, pattern = self.contacts.add(state, tangent, residual, values, load)
         skew = self._skew(state, pressure) if tangent else np.zeros(0)
         return Equilibrium(residual, force, values, smallest, pattern, skew)
 
@@ -141,6 +145,14 @@ class Assembly:
             tangent, force, values,
         )  # fmt: skip
 
+    def _add_springs(self, state: State, tangent: bool, residual: Reals, values: Reals) -> None:
+        """Add all springs to ``residual`` and ``values``."""
+        if self.springs is None:
+            return
+        residual += self.numbering.gather(self.springs.forces(state.displacement))
+        if tangent:
+            values[self.springs.entries] += self.springs.values
+
     def extrapolated_stress(self, state: State, increment: State) -> Reals:
         """Stress after an increment from a state, to first order: a ``State.geometric_stress``.
 
@@ -153,10 +165,15 @@ class Assembly:
         )  # fmt: skip
         return stress
 
-    def energy(self, state: State) -> float:
-        """Pi of the solid and its contacts, N mm: its gradient is the residual at zero pressure."""
+    def energy(self, state: State, load: float = 0.0) -> float:
+        """Pi of the solid, its springs and contacts, N mm.
+
+        Its gradient is the residual without pressure and dead loads; rigid planes are where they
+        are at the fraction ``load`` of the load.
+        """
         solid = total_energy(self._solid, state.displacement, state.hydrostatic_pressure)
-        return float(solid[0]) + self.contacts.energy(state)
+        springs = self.springs.energy(state.displacement) if self.springs is not None else 0.0
+        return float(solid[0]) + springs + self.contacts.energy(state, load)
 
     def _geometric(self, state: State) -> Reals:
         """A state's geometric stress in the form of the kernels: (e, 0, 6) for none."""
@@ -179,7 +196,8 @@ class Assembly:
 def unbalanced_forces(problem: Problem, state: State, pressure: float, load: float) -> Reals:
     """Out-of-balance nodal forces (n, 3) in N: zero except where supports act.
 
-    Under ``pressure`` (MPa) and the fraction ``load`` of the dead loads.
+    Under ``pressure`` (MPa) and the fraction ``load`` of the dead loads and of the motions of rigid
+    planes; springs and contacts belong to the balance.
     """
     mesh = problem.mesh
     everything = number_unknowns(mesh, NO_SUPPORTS)
@@ -196,7 +214,13 @@ def unbalanced_forces(problem: Problem, state: State, pressure: float, load: flo
     loaded = pressure_facets(mesh, triangles, everything.of_triangles(triangles), no_entries)
     assemble_pressure(loaded, displacement, pressure, False, force, nothing)
     forces, _, _ = everything.expand(residual + pressure * force)
-    return forces - load * nodal_forces(mesh, problem.loads)
+    forces -= load * nodal_forces(mesh, problem.loads)
+    if problem.springs:
+        stiffness = stiffness_matrix(mesh, problem.springs)
+        forces += (stiffness @ displacement.ravel()).reshape(-1, 3)
+    for pair in contact_pairs(problem):
+        forces -= pair.forces(state, load)
+    return forces
 
 
 NO_SUPPORTS = Supports()

@@ -1,16 +1,17 @@
-"""Unilateral contact, without friction, of a body with its mirror images.
+"""Unilateral contact, without friction, of a body with its mirror images and with rigid planes.
 
 Bodies that mirror each other touch in the plane between them, so it suffices that no point crosses
-that plane. With g the signed distance of a point from its plane, positive on the body's side, and
-d = -g, the contact energy per reference area is
+that plane, as with a rigid one. With g the signed distance of a point from its plane, positive on
+the body's side, and d = -g, the contact energy per reference area is
 
     psi(d) = k d^3 / (6 s)                      for 0 < d < s,
              k (d^2 / 2 - s d / 2 + s^2 / 6)    beyond,            0 for d <= 0,
 
 a penalty of stiffness k (MPa/mm), smoothed over the depth s so that the pressure -dpsi/dg and its
 slope are continuous. It is integrated by the six-point rule over the reference surface. All planes
-are written as g = n . x + c. A fixed one has constant n and c; the moving one
-(``solver.assembly.moving_plane``) has
+are written as g = n . x + c. A fixed one has constant n and c; one that is led has a c that depends
+on the load, and so has the residual; the moving plane of a cell (``solver.assembly.moving_plane``)
+has
 
     n = (-cos t, 0, sin t),   c = (L + shift) cos t,   t = tilt,
 
@@ -32,12 +33,19 @@ from solver.arrays import Integers, Reals
 from solver.assembly.moving_plane import MovingPlane
 from solver.assembly.state import State
 from solver.errors import SolverError
-from solver.kernels.contact import Face, Plane, assemble_contact, face_energy
+from solver.kernels.contact import (
+    Face,
+    Plane,
+    assemble_contact,
+    contact_pressures,
+    face_energy,
+)
 from solver.linear.sparsity import Pattern, widened
 from solver.mesh.elements import triangle_rule
 from solver.mesh.mesh import Mesh
 from solver.mesh.proximity import OPPOSING, facet_normals
-from solver.problem.problem import Contact, Problem
+from solver.problem.contacts import ContactPlane, RigidPlane, on_moving_plane, planes_move
+from solver.problem.problem import Problem
 from solver.problem.unknowns import Numbering
 
 SMOOTHING = 0.1
@@ -49,17 +57,20 @@ SOFTENING = 30.0
 INITIAL_CROSSING = 1e-6
 """Tolerance for rounding of surfaces beyond their planes at no load, in body diagonals."""
 
+DIFFERENCE = 1e-6
+"""Fraction of the load between the two positions of a difference quotient."""
+
 
 @dataclass(frozen=True)
 class ContactPair:
     """One contact of a problem on its mesh."""
 
     problem: Problem
-    contact: Contact
+    contact: ContactPlane
     face: Face
 
     @staticmethod
-    def of(problem: Problem, contact: Contact, numbering: Numbering) -> ContactPair:
+    def of(problem: Problem, contact: ContactPlane, numbering: Numbering) -> ContactPair:
         """The contact with its triangles' quadrature and numbers of unknowns."""
         mesh, rule = problem.mesh, triangle_rule()
         triangles = mesh.triangles(contact.surface)
@@ -74,13 +85,13 @@ class ContactPair:
         )
         return ContactPair(problem, contact, face)
 
-    def plane(self, state: State) -> Plane:
-        """The plane at a state."""
-        return _plane_of(self.problem, self.contact, state)
+    def plane(self, state: State, load: float) -> Plane:
+        """The plane at a state and a fraction of the load."""
+        return _plane_of(self.problem, self.contact, state, load)
 
-    def gaps(self, state: State) -> Reals:
+    def gaps(self, state: State, load: float) -> Reals:
         """Signed distances of the quadrature points from the plane, (k, q), mm."""
-        *normal, constant = self.plane(state).equation
+        *normal, constant = self.plane(state, load).equation
         along = (self.face.nodes + state.displacement) @ np.array(normal)
         gaps: Reals = along[self.face.triangles] @ self.face.shapes.T + constant
         return gaps
@@ -98,9 +109,29 @@ class ContactPair:
             return np.empty((len(self.face.triangles), 0), np.int32)
         return pattern.entries(self.face.dofs)
 
-    def touches(self, state: State) -> bool:
+    def touches(self, state: State, load: float) -> bool:
         """True if a quadrature point is beyond the plane."""
-        return bool((self.gaps(state) < 0).any())
+        return bool((self.gaps(state, load) < 0).any())
+
+    def pressures(self, state: State, load: float) -> Reals:
+        """Pressure per reference area at the quadrature points, (k, q), MPa."""
+        pressures: Reals = contact_pressures(self.face, self.gaps(state, load))
+        return pressures
+
+    def energy(self, state: State, load: float) -> float:
+        """Energy of the penetration, N mm."""
+        return float(face_energy(self.face, self.plane(state, load), state.displacement))
+
+    def forces(self, state: State, load: float) -> Reals:
+        """Nodal forces (n, 3) of the plane on the body, N; ``face`` numbers all displacements."""
+        residual = np.zeros(state.displacement.size)
+        if self.touches(state, load):
+            assemble_contact(
+                self.face, self.entries(None), self.plane(state, load),
+                np.full(len(state.displacement), np.nan), 0.0,
+                np.ascontiguousarray(state.displacement), False, residual, np.zeros(0),
+            )  # fmt: skip
+        return -residual.reshape(-1, 3)
 
 
 class Contacts:
@@ -111,12 +142,22 @@ class Contacts:
     """
 
     def __init__(
-        self, problem: Problem, numbering: Numbering, plane: MovingPlane | None, pattern: Pattern
+        self,
+        problem: Problem,
+        numbering: Numbering,
+        plane: MovingPlane | None,
+        pattern: Pattern,
+        start: Reals,
     ) -> None:
+        """``start`` (n, 3): displacements at the start; a later stage may begin in contact.
+
+        Raises ``SolverError`` if a surface of the undeformed body lies beyond its plane.
+        """
         self._plane = plane
         self._pattern = pattern
         self._pairs = tuple(ContactPair.of(problem, each, numbering) for each in problem.contacts)
-        _check_apart(problem, self._pairs)
+        if not start.any():
+            _check_apart(problem, self._pairs)
 
     @contextmanager
     def softened(self) -> Iterator[None]:
@@ -128,33 +169,49 @@ class Contacts:
         finally:
             self._pairs = stiff
 
-    def energy(self, state: State) -> float:
-        """Energy of all contacts, N mm."""
-        return float(
-            sum(face_energy(p.face, p.plane(state), state.displacement) for p in self._pairs)
-        )
+    @property
+    def move(self) -> bool:
+        """Whether rigid planes move with the load."""
+        return planes_move([pair.contact for pair in self._pairs])
 
-    def depth(self, state: State) -> float:
+    def rate(self, state: State, load: float) -> Reals:
+        """Derivative (m,) of the contact forces in the residual by the load at rest, N.
+
+        By planes that move, as a difference quotient: only predictors use it.
+        """
+        step = DIFFERENCE if load < 0.5 else -DIFFERENCE
+        here, there = np.zeros((2, len(self._pattern.indptr) - 1))
+        self.add(state, False, here, np.zeros(0), load)
+        self.add(state, False, there, np.zeros(0), load + step)
+        rate: Reals = (there - here) / step
+        return rate
+
+    def energy(self, state: State, load: float = 0.0) -> float:
+        """Energy of all contacts, N mm."""
+        return float(sum(pair.energy(state, load) for pair in self._pairs))
+
+    def depth(self, state: State, load: float) -> float:
         """Least penetration (mm) of the active contacts; infinite without any."""
-        active = (pair for pair in self._pairs if pair.touches(state))
+        active = (pair for pair in self._pairs if pair.touches(state, load))
         return min((pair.contact.penetration for pair in active), default=np.inf)
 
     def add(
-        self, state: State, tangent: bool, residual: Reals, values: Reals
+        self, state: State, tangent: bool, residual: Reals, values: Reals, load: float = 0.0
     ) -> tuple[Reals, Pattern]:
         """Add contact forces to ``residual``; returns the tangent with contact, and its pattern.
 
-        ``values`` are in the pattern without contact, and empty unless ``tangent``.
+        Planes are where they are at the fraction ``load`` of the load. ``values`` are in the
+        pattern without contact, and empty unless ``tangent``.
         """
-        active = [pair for pair in self._pairs if pair.touches(state)]
+        active = [pair for pair in self._pairs if pair.touches(state, load)]
         pattern = self._pattern
-        if tangent and any(pair.contact.axis is None for pair in active):
+        if tangent and any(on_moving_plane(pair.contact) for pair in active):
             pattern, places = self._widened
             solid, values = values, np.zeros(len(pattern.indices))
             values[places] = solid
         for pair in active:
             assemble_contact(
-                pair.face, pair.entries(pattern if tangent else None), pair.plane(state),
+                pair.face, pair.entries(pattern if tangent else None), pair.plane(state, load),
                 self._heights(state), state.plane[0], np.ascontiguousarray(state.displacement),
                 tangent, residual, values,
             )  # fmt: skip
@@ -169,40 +226,51 @@ class Contacts:
     @cached_property
     def _widened(self) -> tuple[Pattern, Integers]:
         """Pattern with contact at the moving plane, and positions of the solid's entries in it."""
-        cells = [pair.face.dofs for pair in self._pairs if pair.contact.axis is None]
+        cells = [pair.face.dofs for pair in self._pairs if on_moving_plane(pair.contact)]
         return widened(self._pattern, np.concatenate(cells))
 
 
-def lowest_gaps(problem: Problem, displacement: Reals, plane: Reals) -> tuple[float, ...]:
+def contact_pairs(problem: Problem) -> tuple[ContactPair, ...]:
+    """The problem's contacts, with every displacement numbered, also where it is given."""
+    size = len(problem.mesh.nodes)
+    everything = np.arange(3 * size, dtype=np.int32).reshape(size, 3)
+    none = np.full(2, -1, np.int32)
+    numbering = Numbering(everything, np.zeros(0, np.int32), none, everything.size)
+    return tuple(ContactPair.of(problem, each, numbering) for each in problem.contacts)
+
+
+def lowest_gaps(
+    problem: Problem, displacement: Reals, plane: Reals, load: float = 1.0
+) -> tuple[float, ...]:
     """Least signed distance from its plane of each of the problem's contacts, mm.
 
-    ``displacement`` (n, 3) in mm; ``plane`` (2,) tilt (rad) and shift (mm) of the moving plane.
-    Negative in contact: minus the penetration, which the penalty allows.
+    ``displacement`` (n, 3) in mm; ``plane`` (2,) tilt (rad) and shift (mm) of the moving plane;
+    ``load``: fraction at which rigid planes are taken. Negative in contact: minus the penetration,
+    which the penalty allows.
     """
-    from solver.problem.unknowns import number_unknowns
-
     state = State(displacement, np.zeros(0), np.asarray(plane, float))
-    numbering = number_unknowns(problem.mesh, problem.supports, problem.moving_plane)
-    pairs = (ContactPair.of(problem, each, numbering) for each in problem.contacts)
-    return tuple(float(pair.gaps(state).min(initial=np.inf)) for pair in pairs)
+    pairs = contact_pairs(problem)
+    return tuple(float(pair.gaps(state, load).min(initial=np.inf)) for pair in pairs)
 
 
 def image_gaps(problem: Problem, displacement: Reals, plane: Reals) -> tuple[float | None, ...]:
-    """Least gap (mm) between each contact's surface and its mirror image; None: no facing parts.
+    """Least gap (mm) between each contact's surface and its mirror image.
 
-    Arguments as for ``lowest_gaps``. Computed from flat facets; in contact minus the overlap of the
-    surface and its image.
+    None where there are no facing parts, and for rigid planes. Arguments as for ``lowest_gaps``.
+    Computed from flat facets; in contact minus the overlap of the surface and its image.
     """
     state = State(displacement, np.zeros(0), np.asarray(plane, float))
     lowest = lowest_gaps(problem, displacement, plane)
     gaps = []
     for contact, least in zip(problem.contacts, lowest, strict=True):
-        *normal, constant = _plane_of(problem, contact, state).equation
+        *normal, constant = _plane_of(problem, contact, state, 1.0).equation
         centres, normals = facet_normals(problem.mesh, displacement, contact.surface)
         cosine = normals @ np.array(normal)
         facing = (cosine < 0) & (1 - 2 * cosine**2 <= OPPOSING)
         across = centres[facing] @ np.array(normal) + constant
         gaps.append(2 * (least if least < 0 else float(across.min(initial=np.inf))))
+        if isinstance(contact, RigidPlane):
+            gaps[-1] = np.inf
     return tuple(gap if np.isfinite(gap) else None for gap in gaps)
 
 
@@ -215,25 +283,32 @@ def _areas(mesh: Mesh, triangles: Integers) -> Reals:
 
 
 def _dofs(
-    problem: Problem, contact: Contact, triangles: Integers, numbering: Numbering
+    problem: Problem, contact: ContactPlane, triangles: Integers, numbering: Numbering
 ) -> Integers:
     """Unknowns of triangles (k, 20): the moving plane's where they couple, else -1."""
     moving = problem.moving_plane
     on_plane = () if moving is None else problem.mesh.surface_nodes(moving)
     plane = np.broadcast_to(numbering.plane, (len(triangles), 2)).copy()
-    if contact.axis is not None:
+    if not on_moving_plane(contact):
         plane[~np.isin(triangles, on_plane).any(axis=1)] = -1
     return np.ascontiguousarray(np.hstack([numbering.of_triangles(triangles), plane]))
 
 
-def _plane_of(problem: Problem, contact: Contact, state: State) -> Plane:
-    """A contact's plane at a state."""
+def _plane_of(problem: Problem, contact: ContactPlane, state: State, load: float) -> Plane:
+    """A contact's plane at a state and a fraction of the load."""
+    if isinstance(contact, RigidPlane):
+        return _still(contact.equation(load))
     if contact.axis is None:
         return _moving_plane(_initial_x(problem), state.plane)
     middle = problem.mesh.nodes[:, contact.axis].mean()
     side = 1.0 if middle >= contact.position else -1.0  # where the body is
     equation = np.zeros(4)
     equation[contact.axis], equation[3] = side, -side * contact.position
+    return _still(equation)
+
+
+def _still(equation: Reals) -> Plane:
+    """A plane that no unknown moves."""
     return Plane(equation, np.zeros(4), np.zeros(4), 0.0, 0.0)
 
 
@@ -255,9 +330,11 @@ def _check_apart(problem: Problem, pairs: tuple[ContactPair, ...]) -> None:
     """Raise ``SolverError`` if a surface of the undeformed body lies beyond its plane."""
     still = State.zero(problem)
     for pair in pairs:
-        lowest = float(pair.gaps(still).min(initial=0.0))
+        lowest = float(pair.gaps(still, 0.0).min(initial=0.0))
         if lowest < -INITIAL_CROSSING * problem.mesh.size:
+            rigid = isinstance(pair.contact, RigidPlane)
+            side = "the side to which the normal points" if rigid else "one side"
             raise SolverError(
                 f"contacts: the surface {pair.contact.surface!r} lies {-lowest:.3g} mm beyond its "
-                "plane before any load; it must be on one side."
+                f"plane before any load; it must be on {side}."
             )

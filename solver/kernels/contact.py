@@ -59,6 +59,18 @@ def contact_law(gap: float, stiffness: float, smoothing: float) -> tuple[float, 
 
 
 @compiled()
+def contact_pressures(face: Face, gaps: Reals) -> Reals:
+    """Pressure (k, q) per reference area at signed gaps (k, q) of quadrature points, MPa."""
+    pressures = np.empty(gaps.shape)
+    for triangle in range(gaps.shape[0]):
+        for point in range(gaps.shape[1]):
+            pressures[triangle, point] = contact_law(
+                gaps[triangle, point], face.stiffness, face.smoothing
+            )[1]
+    return pressures
+
+
+@compiled()
 def face_energy(face: Face, plane: Plane, displacement: Reals) -> float:
     """Contact energy of a face, N mm."""
     energy = 0.0

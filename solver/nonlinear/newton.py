@@ -128,6 +128,8 @@ class Newton:
         self.slender = self.problem.axis is not None and self.assembly.plane is None
         self.trusted = trusted_nodes(self.problem)
         self.loose_tolerance = min(self.options.loose_tolerance, EDGE_SHARE * mesh.edge / mesh.size)
+        if self.problem.springs:  # stress left open must not outweigh a soft spring
+            self.loose_tolerance = min(self.loose_tolerance, self.options.tolerance)
         self.began = time.monotonic()
         self.limited = True
 
@@ -193,7 +195,7 @@ class Newton:
                 found = self._correction(state, load, reuse, iteration)
             except NoCorrection as reason:
                 return Attempt(guess, iteration, str(reason), touched=touched)
-            depth = self.assembly.contacts.depth(found.moved)
+            depth = self.assembly.contacts.depth(found.moved, self.loading.share(load))
             touched |= bool(np.isfinite(depth))
             small = found.size <= min(tolerance * self.problem.mesh.size, depth)
             small &= found.pressure_size <= pressure_bound(tolerance)
@@ -328,6 +330,8 @@ class Newton:
         if len(self.fading_force):
             fixed_forces = fixed_forces - self.fading_force
         rate: Reals = loading.pressure_rate * equilibrium.force - loading.share_rate * fixed_forces
+        if self.assembly.contacts.move and not loading.constant:
+            rate = rate + self.assembly.contacts.rate(state, load)
         if not self.problem.supports.prescribed or loading.constant:
             return rate
         step = DIFFERENCE if load < 0.5 else -DIFFERENCE

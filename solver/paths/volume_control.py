@@ -29,6 +29,7 @@ from solver.paths.volume_checks import (
     signed_targets,
     volume_at_start,
 )
+from solver.problem.contacts import planes_move
 from solver.problem.problem import Problem
 from solver.results.solution import PathPoint, Solution
 
@@ -96,7 +97,8 @@ def _loaded(
     if after is not None and _goes_on(problem, after.problem):
         start = replace(after, path=after.path[-1:], converged=True, seconds=0.0)
         return replace(start, newton_iterations=0, factorizations=0, load_steps=0, refused_steps=0)
-    if problem.loads or problem.supports.prescribed or after is not None:
+    led = problem.supports.prescribed or planes_move(problem.contacts)
+    if problem.loads or led or after is not None:
         pressure = Loading.of(problem, 0.0, after).pressures[0]
         return solve(problem, pressure, options, listener, after=after)
     return None
@@ -104,10 +106,11 @@ def _loaded(
 
 def _goes_on(problem: Problem, former: Problem) -> bool:
     """Whether a stage has the loads and supports of the one before, and leads nothing on."""
-    same = (problem.loads, problem.supports, set(problem.pressurised)) == (
-        former.loads, former.supports, set(former.pressurised),
-    )  # fmt: skip
-    return same and not problem.supports.prescribed
+    ours, theirs = (
+        (each.loads, each.supports, set(each.pressurised), each.contacts, each.springs)
+        for each in (problem, former)
+    )
+    return ours == theirs and not problem.supports.prescribed and not planes_move(problem.contacts)
 
 
 def _newton(

@@ -1,4 +1,4 @@
-"""The boundary value problem: mesh, material, supports, loads and contacts."""
+"""The boundary value problem: mesh, material, supports, loads, contacts and springs."""
 
 from __future__ import annotations
 
@@ -14,7 +14,9 @@ from solver.mesh.mesh import Mesh
 from solver.problem.supports import Supports
 
 if TYPE_CHECKING:
+    from solver.problem.contacts import ContactPlane
     from solver.problem.loads import Load
+    from solver.problem.springs import Spring
 
 
 @dataclass(frozen=True)
@@ -42,39 +44,6 @@ class SlenderAxis:
 
 
 @dataclass(frozen=True)
-class Contact:
-    """Frictionless contact of a surface with a plane of symmetry, which it may not cross.
-
-    Attributes:
-        surface: name of the surface.
-        penetration: depth beyond the plane, mm, at a contact pressure equal to the material's
-            initial shear modulus; other pressures in proportion.
-        axis: normal of the plane, 0, 1 or 2; None for the problem's moving plane.
-        position: of the plane along ``axis``, mm.
-
-    Raises:
-        SolverError: another axis, a penetration that is not positive and finite, or a position that
-            is not finite.
-    """
-
-    surface: str
-    penetration: float
-    axis: int | None = None
-    position: float = 0.0
-
-    def __post_init__(self) -> None:
-        check_number("contacts: penetration", self.penetration)
-        check_number("contacts: position", self.position)
-        if self.axis not in (None, 0, 1, 2):
-            raise SolverError(f"contacts: the plane's axis must be 0, 1 or 2, got {self.axis}.")
-        if not 0 < self.penetration < np.inf or not np.isfinite(self.position):
-            raise SolverError(
-                f"contacts: penetration = {self.penetration:g} mm must be above 0 and position = "
-                f"{self.position:g} mm finite."
-            )
-
-
-@dataclass(frozen=True)
 class Problem:
     """A hyperelastic solid under a follower pressure, dead loads and prescribed motions.
 
@@ -92,13 +61,15 @@ class Problem:
             resultant of the pressure in the cavity beyond it (``MovingPlane``), and the couples.
         sharp_edge_radius: mm; stresses nearer than that to an edge at which the ideal body's are
             unbounded are left out of peaks (``solver.results.sharp_edges``).
-        contacts: surfaces that may not cross planes of symmetry (``solver.assembly.contact``).
+        contacts: surfaces that may not cross planes of symmetry or rigid planes, some of which
+            move with the load (``solver.assembly.contact``); with a moving plane no rigid ones.
+        springs: linear springs between the body and the ground; none with a moving plane.
 
     Raises:
         SolverError: a surface is unknown, has no triangles or is not made of outer faces, the
-            moving plane is not plane, loads do not go with it, a contact has no plane, the supports
-            leave a rigid motion free, or they leave the pressure of an incompressible body
-            undetermined.
+            moving plane is not plane, loads, springs or rigid planes do not go with it, a contact
+            has no plane, supports and springs leave a rigid motion free, or the supports leave the
+            pressure of an incompressible body undetermined.
     """
 
     mesh: Mesh
@@ -109,24 +80,30 @@ class Problem:
     axis: SlenderAxis | None = None
     moving_plane: str | None = None
     sharp_edge_radius: float = 0.0
-    contacts: tuple[Contact, ...] = ()
+    contacts: tuple[ContactPlane, ...] = ()
+    springs: tuple[Spring, ...] = ()
 
     def __post_init__(self) -> None:
         self._check_kinds()
         from solver.mesh.checks import check_mesh
+        from solver.problem.contacts import check_contacts
         from solver.problem.loads import check_loads, loaded_surfaces
+        from solver.problem.springs import check_springs, sprung_surfaces
         from solver.problem.support_checks import check_pressure, check_supports
         from solver.problem.supports import fixed_displacements
 
         check_loads(self.loads, self.moving_plane)
-        check_mesh(self.mesh, self.pressurised, loaded_surfaces(self.loads))
+        springs = check_springs(self.springs, self.moving_plane)
+        object.__setattr__(self, "springs", springs)
+        contacts = check_contacts(self.mesh, self.contacts, self.moving_plane)
+        object.__setattr__(self, "contacts", contacts)
+        loaded = (*loaded_surfaces(self.loads), *sprung_surfaces(springs))
+        check_mesh(self.mesh, self.pressurised, (*loaded, *(each.surface for each in contacts)))
         if not 0 <= self.sharp_edge_radius < np.inf:
             raise SolverError(
                 f"sharp_edge_radius = {self.sharp_edge_radius} mm must be a number of at least 0."
             )
-        object.__setattr__(self, "contacts", members_of("contacts", self.contacts, (Contact,)))
-        _check_contacts(self)
-        check_supports(self.mesh, self.supports, self.moving_plane)
+        check_supports(self.mesh, self.supports, self.moving_plane, self.springs)
         if self.material.compliance == 0:
             check_pressure(self.mesh, fixed_displacements(self.mesh, self.supports))
 
@@ -142,14 +119,3 @@ class Problem:
         check_number("sharp_edge_radius", self.sharp_edge_radius)
         object.__setattr__(self, "pressurised", names("pressurised", self.pressurised))
         object.__setattr__(self, "loads", members_of("loads", self.loads, LOAD_KINDS))
-
-
-def _check_contacts(problem: Problem) -> None:
-    """Raise ``SolverError`` for contacts with unknown surfaces or with no moving plane."""
-    for contact in problem.contacts:
-        problem.mesh.triangles(contact.surface)
-        if contact.axis is None and problem.moving_plane is None:
-            raise SolverError(
-                f"contacts: the surface {contact.surface!r} needs an axis, as the problem has no "
-                "moving plane."
-            )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +13,7 @@ from solver.errors import SolverError
 from solver.mesh.connectivity import connected_parts
 from solver.mesh.elements import tetrahedron_rule
 from solver.mesh.mesh import Mesh
+from solver.problem.springs import Spring, held_directions
 from solver.problem.supports import Supports, fixed_displacements, prescribed_motion
 
 RIGID_MOTIONS = (
@@ -27,8 +29,13 @@ NEGLIGIBLE = 1e-12
 """Fraction of the largest value below which a value counts as zero."""
 
 
-def check_supports(mesh: Mesh, supports: Supports, moving_plane: str | None = None) -> None:
-    """Raise ``SolverError`` where supports contradict themselves or leave a rigid motion free."""
+def check_supports(
+    mesh: Mesh, supports: Supports, moving_plane: str | None = None, springs: Sequence[Spring] = ()
+) -> None:
+    """Raise ``SolverError`` where supports contradict themselves or leave a rigid motion free.
+
+    Springs hold rigid motions too.
+    """
     for surface in supports.prescribed:
         _check_motion(mesh, supports, surface)
     _check_agreement(mesh, supports)
@@ -38,7 +45,8 @@ def check_supports(mesh: Mesh, supports: Supports, moving_plane: str | None = No
     parts = connected_parts(mesh.tets, len(mesh.nodes))
     for number in range(parts.max() + 1):
         nodes = np.flatnonzero(parts == number)
-        free = free_motions(mesh.nodes[nodes], fixed[nodes])
+        held = held_directions(mesh, springs, nodes)
+        free = free_motions(mesh.nodes[nodes], fixed[nodes], held)
         if free:
             middle = ", ".join(f"{x:.4g}" for x in mesh.nodes[nodes].mean(axis=0))
             which = f"part of the body around ({middle}) mm" if parts.max() else "body"
@@ -70,9 +78,12 @@ def check_pressure(mesh: Mesh, fixed: NDArray[np.bool_]) -> None:
         )
 
 
-def free_motions(nodes: Reals, fixed: NDArray[np.bool_]) -> tuple[str, ...]:
+def free_motions(
+    nodes: Reals, fixed: NDArray[np.bool_], sprung: tuple[NDArray[np.int64], Reals] | None = None
+) -> tuple[str, ...]:
     """Names of independent rigid motions of nodes (k, 3) that ``fixed`` (k, 3) does not prevent.
 
+    Nor ``sprung``: indices (m,) of nodes that springs hold, and directions (m, 3) along which.
     Rotations are about axes through the centroid of the nodes; a body that is free to rotate about
     another point has as many free motions.
     """
@@ -81,6 +92,9 @@ def free_motions(nodes: Reals, fixed: NDArray[np.bool_]) -> tuple[str, ...]:
     rotations = [np.cross(about, positions) for about in np.eye(3)]
     motions = np.stack([*np.broadcast_to(np.eye(3)[:, None], (3, *positions.shape)), *rotations])
     held = motions[:, node, axis]  # (6, number of held displacements)
+    if sprung is not None:
+        along = np.einsum("rmi,mi->rm", motions[:, sprung[0]], sprung[1])
+        held = np.concatenate([held, along], axis=1)
     values, vectors = np.linalg.eigh(held @ held.T)
     return tuple(
         RIGID_MOTIONS[k] for k in _leading(vectors[:, values <= NEGLIGIBLE * max(values[-1], 1)])

@@ -50,6 +50,22 @@ def test_the_clamp_of_the_bar_holds_the_force_at_its_lever_arm() -> None:
         assert float(moment) == pytest.approx(force * float(arm), rel=1e-3)
 
 
+def test_the_ball_presses_on_the_plate_a_little_more_than_hertz_says() -> None:
+    """By 0.45 of the contact's radius over the ball's, as the verification of contact says.
+
+    The first contact is hardly wider than an element.
+    """
+    _, *rows, last = printed_by("pressing.py")
+    assert len(rows) == 5
+    for row in rows:
+        distance, force, hertz, _, radius = numbers(row)
+        more = 0.45 * (distance / 10) ** 0.5
+        assert force == pytest.approx(hertz * (1 + more), rel=0.08)
+        assert radius == pytest.approx((10 * distance) ** 0.5, rel=0.2)
+    done, stored = numbers(last)
+    assert done == pytest.approx(stored, rel=0.03)
+
+
 def test_the_finger_of_ones_own_rubber_bends_as_far_as_its_stiffness_says() -> None:
     shear, misfit, reached, angle, stress, strain, warning = printed_by("own_material.py")
     assert numbers(shear) == pytest.approx([0.368], rel=0.01)

@@ -13,6 +13,7 @@ FAMILIES = (
     "hard_elements",
     "hard_meshes",
     "hard_supports",
+    "hard_contacts",
     "hard_inputs",
     "hard_kinds",
     "hard_reactions",

@@ -15,6 +15,7 @@ from solver import (
     Contact,
     Couple,
     Mesh,
+    NodeSpring,
     Ogden,
     PointForce,
     Problem,
@@ -63,6 +64,7 @@ def problems() -> Calls:
         moving_plane=(("x1",), 1),
         sharp_edge_radius=("0.2", None, (0.2,)),
         contacts=(Contact("x1", 0.01, 0), "x1", ("x1",), 0.1),
+        springs=(NodeSpring((0.0, 0.0, 0.0), (1.0, 0.0, 0.0)), "x1", (0.1,), 0.1, None),
     )
 
 

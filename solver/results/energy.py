@@ -1,0 +1,115 @@
+"""Energy of an equilibrium.
+
+It is the energy of the discrete body: the residual is its derivative. So it is stationary in a
+computed equilibrium, and equal to the work on the way there (``solver.results.work``), whatever the
+mesh.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from solver.assembly.assembly import solid
+from solver.assembly.contact import contact_pairs
+from solver.assembly.free_rim import free_edges
+from solver.assembly.swept_volume import swept_volume
+from solver.errors import SolverError
+from solver.kernels.assembly import total_energy
+from solver.problem.loads import couple, nodal_forces
+from solver.problem.springs import stiffness_matrix
+from solver.results.solution import Solution
+
+
+@dataclass(frozen=True)
+class Potential:
+    """Potential energy of an equilibrium; each part is zero in the undeformed body.
+
+    Attributes:
+        strain: stored in the body, N mm.
+        springs: stored in the springs, N mm.
+        contacts: stored in the penetration of contacts, N mm; it vanishes with their depth.
+        loads: of dead loads and pressure, N mm: minus the work that they would do at their present
+            size on the straight way from the undeformed body.
+    """
+
+    strain: float
+    springs: float
+    contacts: float
+    loads: float
+
+    @property
+    def stored(self) -> float:
+        """In body, springs and contacts together, N mm."""
+        return self.strain + self.springs + self.contacts
+
+    @property
+    def total(self) -> float:
+        """Stored energy and potential of the loads together, N mm."""
+        return self.stored + self.loads
+
+
+def strain_energy(solution: Solution) -> float:
+    """Energy stored in the body, with that of the change of volume.
+
+    Args:
+        solution: an equilibrium.
+
+    Returns:
+        N mm; of a symmetric part its own share.
+    """
+    state = solution.state
+    displacement = np.ascontiguousarray(state.displacement)
+    return float(total_energy(solid(solution.problem), displacement, state.hydrostatic_pressure)[0])
+
+
+def potential(solution: Solution) -> Potential:
+    """Potential energy of an equilibrium, part by part.
+
+    Their ``total`` is stationary against all motions that the supports allow, at constant loads.
+
+    Args:
+        solution: an equilibrium.
+
+    Returns:
+        Energies, zero in the undeformed body; of a symmetric part its own share.
+
+    Raises:
+        SolverError: there is pressure on a surface with a free rim: the work of the pressure then
+            depends on the way, and it has no potential (``work`` holds there too).
+    """
+    problem, state, load = solution.problem, solution.state, solution.load
+    displacement = state.displacement.ravel()
+    stiffness = stiffness_matrix(problem.mesh, problem.springs)
+    return Potential(
+        strain=strain_energy(solution),
+        springs=0.5 * float(displacement @ (stiffness @ displacement)),
+        contacts=float(sum(pair.energy(state, load) for pair in contact_pairs(problem))),
+        loads=0.0 - _pressure_work(solution) - _dead_work(solution),
+    )
+
+
+def _pressure_work(solution: Solution) -> float:
+    """Work of the present pressure on the way from the undeformed body, N mm."""
+    problem, displacement = solution.problem, solution.displacement
+    if not solution.pressure:
+        return 0.0
+    if len(free := free_edges(problem, displacement)):
+        where = ", ".join(f"{x:.4g}" for x in problem.mesh.nodes[free[0, 2]])
+        raise SolverError(
+            f"potential: the pressurised surfaces have a free rim, at ({where}) mm, so that the "
+            "work of the pressure depends on the way and it has no potential."
+        )
+    swept = swept_volume(problem, np.zeros_like(displacement), displacement)
+    return solution.pressure * float(swept.sum())
+
+
+def _dead_work(solution: Solution) -> float:
+    """Work of the present dead loads on the way from the undeformed body, N mm."""
+    loads, load = solution.problem.loads, solution.load
+    forces = load * nodal_forces(solution.problem.mesh, loads)
+    if len(solution.remaining_force):
+        forces += solution.remaining_force
+    work = float((forces * solution.displacement).sum())
+    return work + load * couple(loads) * solution.plane[0]

@@ -1,0 +1,152 @@
+"""Work that is done on a body along a path of equilibria."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from solver.arrays import Reals
+from solver.assembly.assembly import unbalanced_forces
+from solver.assembly.contact import contact_pairs
+from solver.assembly.state import State
+from solver.assembly.swept_volume import swept_volume
+from solver.errors import SolverError
+from solver.problem.contacts import RigidPlane
+from solver.problem.loads import couple, nodal_forces
+from solver.problem.problem import Problem
+from solver.problem.supports import fixed_displacements
+from solver.results.solution import Solution
+
+
+@dataclass(frozen=True)
+class Work:
+    """Work done on a body along a path, by what does it.
+
+    Attributes:
+        pressure: by the pressure, N mm.
+        loads: by dead loads, and by what is left of a stage before, N mm.
+        supports: by supports that are led, N mm.
+        planes: by rigid planes that move, N mm.
+    """
+
+    pressure: float
+    loads: float
+    supports: float
+    planes: float
+
+    @property
+    def total(self) -> float:
+        """By all together, N mm."""
+        return self.pressure + self.loads + self.supports + self.planes
+
+
+def work(solutions: Sequence[Solution]) -> Work:
+    """Work done on the way from the undeformed body through ``solutions``.
+
+    By the trapezoidal rule from each to the next, so that the error falls with the square of their
+    distance. The total is the energy that is stored at the last one (``Potential.stored``).
+
+    Args:
+        solutions: equilibria of one mesh in the order of the path, such as
+            ``(*solution.at_stops, solution)``, also of several stages. Rigid planes that stand in
+            the same place of ``Problem.contacts`` are the same.
+
+    Returns:
+        The work; of a symmetric part its own share.
+
+    Raises:
+        SolverError: no solution, or solutions with different meshes or numbers of contacts.
+    """
+    if not solutions:
+        raise SolverError("work: needs at least one solution.")
+    first = solutions[0].problem
+    for problem in (solution.problem for solution in solutions):
+        if not np.array_equal(problem.mesh.nodes, first.mesh.nodes):
+            raise SolverError("work: the solutions must belong to one mesh.")
+        if len(problem.contacts) != len(first.contacts):
+            raise SolverError("work: the solutions must have the same number of contacts.")
+    stations = [_Station.at_rest(first), *map(_Station.of, solutions)]
+    return Work(*np.sum([_parts(*pair) for pair in pairwise(stations)], axis=0).tolist())
+
+
+@dataclass(frozen=True)
+class _Station:
+    """What does work at a state.
+
+    ``dead`` and ``supports``: nodal forces (n, 3), N; ``planes``: forces (k, 3) of rigid planes and
+    their places; ``couple``: that on the moving plane, N mm, and its tilt.
+    """
+
+    problem: Problem
+    pressure: float
+    displacement: Reals
+    dead: Reals
+    supports: Reals
+    planes: tuple[Reals, Reals]
+    couple: tuple[float, float]
+
+    @staticmethod
+    def at_rest(problem: Problem) -> _Station:
+        """The undeformed body."""
+        none, planes = (
+            np.zeros(problem.mesh.nodes.shape),
+            _planes(problem, State.zero(problem), 0.0),
+        )
+        return _Station(problem, 0.0, none, none, none, planes, (0.0, 0.0))
+
+    @staticmethod
+    def of(solution: Solution) -> _Station:
+        """An equilibrium."""
+        problem, state, load = solution.problem, solution.state, solution.load
+        return _Station(
+            problem=problem,
+            pressure=solution.pressure,
+            displacement=state.displacement,
+            dead=load * nodal_forces(problem.mesh, problem.loads) + _remaining(solution),
+            supports=_support_forces(solution),
+            planes=_planes(problem, state, load),
+            couple=(load * couple(problem.loads), float(state.plane[0])),
+        )
+
+
+def _support_forces(solution: Solution) -> Reals:
+    """Nodal forces (n, 3) of the supports, N; zeros in a cell, whose supports do no work."""
+    problem = solution.problem
+    if problem.moving_plane is not None:
+        return np.zeros_like(solution.displacement)
+    forces = unbalanced_forces(problem, solution.state, solution.pressure, solution.load)
+    forces -= _remaining(solution)
+    return np.where(fixed_displacements(problem.mesh, problem.supports), forces, 0.0)
+
+
+def _remaining(solution: Solution) -> Reals:
+    """Nodal forces (n, 3) that are left of the stage before, N."""
+    forces = solution.remaining_force
+    return forces if len(forces) else np.zeros_like(solution.displacement)
+
+
+def _planes(problem: Problem, state: State, load: float) -> tuple[Reals, Reals]:
+    """Forces (k, 3) of rigid planes on the body, N, and the points nearest to the origin, mm."""
+    forces, points = np.zeros((2, len(problem.contacts), 3))
+    for number, pair in enumerate(contact_pairs(problem)):
+        if isinstance(pair.contact, RigidPlane):
+            forces[number] = pair.forces(state, load).sum(axis=0)
+            *normal, constant = pair.contact.equation(load)
+            points[number] = -constant * np.array(normal)
+    return forces, points
+
+
+def _parts(a: _Station, b: _Station) -> Reals:
+    """Work (4,) between two states in the order of ``Work``, N mm."""
+    moved = b.displacement - a.displacement
+    before, after = (swept_volume(s.problem, a.displacement, b.displacement) for s in (a, b))
+    pressure = a.pressure * before[0] + b.pressure * after[1]
+    loads = (a.dead + b.dead) * moved
+    couples = (a.couple[0] + b.couple[0]) * (b.couple[1] - a.couple[1])
+    supports = (a.supports + b.supports) * moved
+    planes = (a.planes[0] + b.planes[0]) * (b.planes[1] - a.planes[1])
+    halves = [loads.sum() + couples, supports.sum(), planes.sum()]
+    return np.array([pressure, *(part / 2 for part in halves)])
