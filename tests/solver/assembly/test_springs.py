@@ -52,6 +52,17 @@ def test_a_bar_pulls_its_spring_as_far_as_one_equation_says(box: Meshes) -> None
     assert held == pytest.approx([exact**-2 - exact, 0, 0], rel=1e-8, abs=1e-9)
 
 
+@pytest.mark.parametrize("linear_solver", ["auto", "superlu"])
+def test_a_follower_pressure_pulls_a_bar_and_its_spring(box: Meshes, linear_solver: str) -> None:
+    """mu (l - 1 / l^2) + k (l - 1) L = |p| / l, by a tangent without symmetry."""
+    mesh = box((4, 1, 1), (4.0, 1.0, 1.0))
+    problem = Problem(mesh, RUBBER, THIRDS, ("x1",), springs=(FoundationSpring("x1", (0.1, 0, 0)),))
+    solution = solve(problem, -2.0, replace(EXACT, linear_solver=linear_solver))
+    exact = brentq(lambda s: s - s**-2 + 0.4 * (s - 1) - 2 / s, 1.0, 3.0)
+    assert solution.converged and exact > 1.3
+    assert solution.displacement[:, 0].max() / 4 == pytest.approx(exact - 1, rel=1e-8)
+
+
 def test_springs_on_all_nodes_of_an_end_are_one_spring(box: Meshes) -> None:
     """The end stays plane, so that only the sum of the springs matters."""
     mesh = box((2, 1, 1), (2.0, 1.0, 1.0))
