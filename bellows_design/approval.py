@@ -4,9 +4,10 @@ Approved is a design for which every printability rule passes, the solver reache
 pressure, the highest von Mises stress keeps its limit *including its estimated error*, and the
 material is not strained beyond its elongation at break. Where the error reaches across the limit
 nothing is decided: the answer is no, and the remedy is a finer mesh, not another design. A result
-that walls run through each other in, or a missing rule or error estimate, is never taken for a
-pass. Strains outside of the range the material was tested in are a warning: the range is that of
-the tests, not of the material. What cannot be judged is listed, with the reason.
+that walls run through each other in, elements that fold at the highest stress, or a missing rule or
+error estimate, are never taken for a pass. Strains outside of the range the material was tested in
+are a warning: the range is that of the tests, not of the material. What cannot be judged is listed,
+with the reason.
 """
 
 from __future__ import annotations
@@ -106,6 +107,8 @@ def open_question(design: Design, report: PrintabilityReport, state: LoadedState
     estimated = state.error_estimate.max_von_mises_percent is not None
     if not estimated or not decide(design, report, state).undecided:
         return ""
+    if state.folded.at_highest_stress:
+        return f"at the highest stress {state.folded.text}"
     limit, stress = design.max_von_mises, state.max_von_mises_mpa
     if _beyond_resolution(stress, limit):
         return ""
@@ -195,6 +198,12 @@ def _remedy(stress: float, limit: float) -> str:
 
 def _stress_reasons(limit: float, state: LoadedState) -> tuple[Reason, ...]:
     stress, percent = state.max_von_mises_mpa, state.error_estimate.max_von_mises_percent
+    if state.folded.at_highest_stress:
+        message = (
+            f"The highest von Mises stress, {stress:.3f} MPa, is not to be judged: "
+            f"{state.folded.text}."
+        )
+        return (Reason("accuracy", "max_von_mises", stress, limit, "MPa", message),)
     if not math.isfinite(stress) or percent is None or not math.isfinite(percent):
         message = (
             f"The highest von Mises stress, {stress:.3f} MPa, has no error estimate: there was no "

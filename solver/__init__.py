@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from solver.problem.supports import Supports
     from solver.results.contacts import ContactForce, contact_forces
     from solver.results.energy import Potential, potential, strain_energy
+    from solver.results.folds import Folds, folded_elements
     from solver.results.reactions import Reaction, reaction
     from solver.results.solution import PathPoint, Solution, cavity_volume
     from solver.results.stress import Peak, nodal_cauchy, nodal_von_mises, peak_von_mises
@@ -44,6 +45,7 @@ __all__ = [
     "ContactForce",
     "Couple",
     "Event",
+    "Folds",
     "FoundationSpring",
     "Limit",
     "Mesh",
@@ -65,6 +67,7 @@ __all__ = [
     "Work",
     "cavity_volume",
     "contact_forces",
+    "folded_elements",
     "inflate",
     "nodal_cauchy",
     "nodal_von_mises",
@@ -101,6 +104,7 @@ __getattr__ = imported_when_asked_for(
         "problem.springs": ("FoundationSpring", "NodeSpring"),
         "results.contacts": ("ContactForce", "contact_forces"),
         "results.energy": ("Potential", "potential", "strain_energy"),
+        "results.folds": ("Folds", "folded_elements"),
         "results.reactions": ("Reaction", "reaction"),
         "problem.supports": ("Supports",),
         "results.solution": ("PathPoint", "Solution", "cavity_volume"),

@@ -22,6 +22,7 @@ from bellows_design.analysis.whole_actuator import (
     curve_readings,
     ends_factor,
     final_readings,
+    folded_elements,
     highest_stress,
     path_readings,
     reading,
@@ -141,6 +142,7 @@ def loaded_state(computation: Computation) -> LoadedState:
         error_estimate=error_estimate(computation),
         strain=_reached_strain(computation),
         contact=_contact(computation),
+        folded=folded_elements(computation),
     )
 
 

@@ -6,7 +6,7 @@ from dataclasses import asdict, dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from bellows_design.analysis.error_estimate import ErrorEstimate
-from bellows_design.analysis.whole_actuator import Reading
+from bellows_design.analysis.whole_actuator import NO_FOLDS, FoldedElements, Reading
 
 if TYPE_CHECKING:
     from bellows_design.analysis.computation import Computation, Seconds
@@ -67,6 +67,7 @@ class LoadedState:
         error_estimate: Estimated errors of angle and stress, percent.
         strain: How far the material is strained, and whether it is known there.
         contact: Which walls touch, and how near the others come.
+        folded: Elements that the deformation folds.
     """
 
     converged: bool
@@ -82,11 +83,12 @@ class LoadedState:
     error_estimate: ErrorEstimate
     strain: ReachedStrain
     contact: WallContact
+    folded: FoldedElements = NO_FOLDS
 
     @property
     def warnings(self) -> tuple[str, ...]:
         """Sentences on what makes the numbers less reliable than they look."""
-        return (*self.strain.warnings, *self.contact.warnings)
+        return (*self.strain.warnings, *self.contact.warnings, *self.folded.warnings)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -147,6 +149,7 @@ class Evaluation(LoadedState):
             "strain": self.strain.to_dict(),
             "warnings": list(self.warnings),
             "contact": asdict(self.contact),
+            "folded_elements": asdict(self.folded),
             "error_estimate": asdict(self.error_estimate),
             "mesh": asdict(self.mesh),
             "meshes": [asdict(mesh.size) | asdict(mesh.reading) for mesh in self.meshes],

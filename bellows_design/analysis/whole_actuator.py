@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -32,6 +32,38 @@ class Reading:
     bending_angle_deg: float
     max_von_mises_mpa: float
     cavity_volume_mm3: float
+
+
+@dataclass(frozen=True)
+class FoldedElements:
+    """Elements that the load folds: their volume ratio is negative somewhere.
+
+    ``position_mm``: centre of the one nearest to the highest stress, in the undeformed actuator;
+    None without any. ``at_highest_stress``: one of them has the node of the highest stress, or
+    touches an element that has it.
+    """
+
+    count: int = 0
+    position_mm: tuple[float, float, float] | None = None
+    at_highest_stress: bool = False
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """A sentence if there are any away from the highest stress; there they are a refusal."""
+        if not self.count or self.at_highest_stress:
+            return ()
+        return (f"{self.text}, away from the highest stress.",)
+
+    @property
+    def text(self) -> str:
+        """How many there are and where, without a full stop."""
+        place = ", ".join(f"{x:.1f}" for x in self.position_mm or ())
+        if self.count == 1:
+            return f"1 element of the mesh folds under the load, at ({place}) mm"
+        return f"{self.count} elements of the mesh fold under the load, the nearest at ({place}) mm"
+
+
+NO_FOLDS = FoldedElements()
 
 
 def reading(computation: Computation, point: PathPoint) -> Reading:
@@ -75,6 +107,26 @@ def _place_at_ends(computation: Computation, peak: Peak) -> tuple[float, float, 
     if ends is not None and ends.problem.moving_plane is not None:
         return x + middles[0], y, z
     return (x + middles[-1] - middles[0] if x > middles[0] else x), y, z
+
+
+def folded_elements(computation: Computation) -> FoldedElements:
+    """Elements that the load folds, on the mesh whose highest stress counts.
+
+    That is the finest, or the ends' where these are stressed more.
+    """
+    from solver.results.folds import folded_around, folded_elements
+
+    solution, peak, place = computation.finest, computation.peaks[-1], position
+    if ends_factor(computation) != 1.0 and computation.ends and computation.ends_peak:
+        solution, peak, place = computation.ends, computation.ends_peak, _place_at_ends
+    folds = folded_elements(solution)
+    if not len(folds.elements):
+        return NO_FOLDS
+    distances = np.linalg.norm(folds.positions - np.array(peak.position), axis=1)
+    x, y, z = (float(each) for each in folds.positions[distances.argmin()])
+    near = folded_around(solution.problem.mesh, folds, peak.node)
+    nearest = place(computation, replace(peak, position=(x, y, z)))
+    return FoldedElements(len(folds.elements), nearest, near)
 
 
 def final_readings(computation: Computation) -> tuple[Reading, ...]:

@@ -15,14 +15,13 @@ from solver.assembly.moving_plane import MovingPlane
 from solver.assembly.pressure import pressure_facets
 from solver.assembly.springs import Springs
 from solver.assembly.state import State
-from solver.errors import SolverError
 from solver.kernels.assembly import Places, assemble, assemble_plane, total_energy
 from solver.kernels.element import Solid
 from solver.kernels.pressure import PressureFacets, assemble_pressure, assemble_volume
 from solver.kernels.stress import extrapolated_stress
 from solver.linear.sparsity import Pattern, upper_pattern
+from solver.mesh.checks import check_elements
 from solver.mesh.elements import tetrahedron_rule
-from solver.mesh.mesh import Mesh
 from solver.problem.loads import couple, nodal_forces
 from solver.problem.problem import Problem
 from solver.problem.springs import stiffness_matrix
@@ -70,7 +69,7 @@ class Assembly:
         surface = problem.moving_plane
         self.plane = None if surface is None else MovingPlane.of(mesh, surface)
         self.numbering = number_unknowns(mesh, problem.supports, problem.moving_plane)
-        check_orientation(mesh)
+        check_elements(mesh)
         dofs = self.numbering.of_tets(mesh)
         at_plane = _touching(mesh.tets, self.plane)
         plane_dofs = self._with_plane(dofs[at_plane])
@@ -257,15 +256,3 @@ def solid(problem: Problem) -> Solid:
         linear=rule.linear,
         weights=rule.weights,
     )
-
-
-def check_orientation(mesh: Mesh) -> None:
-    """Raise ``SolverError`` if a tetrahedron has no positive volume at a quadrature point."""
-    tangents = np.einsum("qad,eai->eqdi", tetrahedron_rule().gradients, mesh.nodes[mesh.tets])
-    smallest = np.linalg.det(tangents).min(axis=1)
-    if not (smallest > 0).all():
-        worst = int(smallest.argmin())
-        raise SolverError(
-            f"mesh: tetrahedron {worst} is turned inside out "
-            f"(Jacobian {smallest[worst]:.3g} mm^3, must be positive)."
-        )

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from solver.arrays import Reals
 from solver.errors import SolverError
+from solver.input_types import check_number
 from solver.material.constants import Constants
 
 Volumetric = Literal["quadratic", "logarithmic"]
@@ -70,6 +71,7 @@ class Hyperelastic:
     def _check_volumetric(self) -> None:
         """Raise ``SolverError`` for an invalid volumetric part."""
         name = type(self).__name__
+        check_number(f"{name}: bulk_modulus", self.bulk_modulus)
         if not self.bulk_modulus > 0:
             raise SolverError(
                 f"{name}: bulk_modulus must be positive, got {self.bulk_modulus} MPa."

@@ -23,6 +23,7 @@ import numpy as np
 
 from solver.arrays import Reals
 from solver.errors import SolverError
+from solver.input_types import check_number
 from solver.material.law import Hyperelastic, Volumetric
 from solver.numerics.compiled import compiled
 from solver.numerics.special_functions import phi2, sinhc
@@ -61,6 +62,8 @@ class MooneyRivlin(Hyperelastic):
     volumetric: Volumetric = "quadratic"
 
     def __post_init__(self) -> None:
+        for name in ("c10", "c01", "c20", "c11", "c02"):
+            check_number(f"MooneyRivlin: {name}", getattr(self, name))
         if not np.isfinite(self.values).all():
             raise SolverError(f"MooneyRivlin: constants must be finite, got {self.values} MPa.")
         if not self.shear_modulus > 0:

@@ -23,6 +23,7 @@ import numpy as np
 
 from solver.arrays import Reals
 from solver.errors import SolverError
+from solver.input_types import numbers
 from solver.material.constants import Constants
 from solver.material.law import Hyperelastic, Volumetric
 from solver.material.laws import number_of
@@ -80,7 +81,7 @@ class Ogden(Hyperelastic):
 
     def __post_init__(self) -> None:
         for name in ("mu", "alpha", "higher"):
-            object.__setattr__(self, name, tuple(float(value) for value in getattr(self, name)))
+            object.__setattr__(self, name, numbers(f"Ogden: {name}", getattr(self, name)))
         if len(self.mu) != len(self.alpha) or not self.mu:
             raise SolverError(
                 "Ogden: mu and alpha need the same number of terms, at least one, "
@@ -88,7 +89,7 @@ class Ogden(Hyperelastic):
             )
         for value in self.mu:
             if not (math.isfinite(value) and value > 0):
-                raise SolverError(f"Ogden: mu must be positive and finite, got {value} MPa.")
+                raise SolverError(f"Ogden: mu must be positive and finite, got {value} MPa{HINT}.")
         for name, unit in (("alpha", ""), ("higher", " MPa")):
             for value in getattr(self, name):
                 if not math.isfinite(value):
@@ -107,6 +108,11 @@ class Ogden(Hyperelastic):
 
 
 MATERIAL = Ogden
+
+HINT = (
+    " (constants of Ogden's original form, sum mu/alpha (l1^alpha + l2^alpha + l3^alpha - 3), "
+    "become those of this one by mu -> mu alpha / 2, which is positive where both have one sign)"
+)
 
 
 def packed(

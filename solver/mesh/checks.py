@@ -9,6 +9,7 @@ from solver.arrays import Integers
 from solver.errors import SolverError
 from solver.mesh.elements import TETRAHEDRON_EDGES as EDGES
 from solver.mesh.elements import TRIANGLE_EDGES
+from solver.mesh.jacobians import least_jacobians
 from solver.mesh.mesh import Mesh
 
 FACES = ((0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2))
@@ -44,6 +45,32 @@ def check_mesh(mesh: Mesh, pressurised: tuple[str, ...], loaded: tuple[str, ...]
             f"loads: a triangle of {', '.join(map(repr, pressurised))} at "
             f"{_place(mesh, triangles[twice])} mm is pressurised twice."
         )
+
+
+FLAT = 1e-15
+"""Ratio of a mean Jacobian to the cube of the element's extent that is rounding."""
+
+
+def check_elements(mesh: Mesh) -> None:
+    """Raise ``SolverError`` unless the Jacobian of every tetrahedron is positive all over it.
+
+    It may vanish at single points, as at a corner whose mid-nodes lie at quarters of the edges.
+    """
+    low, high, mean = least_jacobians(mesh.nodes, mesh.tets)
+    extent = np.ptp(mesh.nodes[mesh.tets], axis=1).max(axis=1)
+    flat = mean <= FLAT * extent**3
+    if not (flat | (low < 0)).any():
+        return
+    worst = int(np.where(flat, -np.inf, low / np.where(flat, 1.0, mean)).argmin())
+    x, y, z = mesh.nodes[mesh.tets[worst, :4]].mean(axis=0)
+    what = "turned inside out or flat" if flat[worst] else "folded"
+    value = f"is {mean[worst]:.3g} mm^3 on average"
+    if not flat[worst]:
+        value = f"falls to {min(high[worst], 0.0):.3g} mm^3 where its mean is {mean[worst]:.3g}"
+    raise SolverError(
+        f"mesh: tetrahedron {worst} is {what} at ({x:.4g}, {y:.4g}, {z:.4g}) mm: its Jacobian "
+        f"{value}; it must be positive everywhere."
+    )
 
 
 def _check_surface(mesh: Mesh, surface: str, outer: NDArray[np.int64]) -> None:

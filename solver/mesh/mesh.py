@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from solver.arrays import Integers, Reals
 from solver.errors import SolverError
+from solver.input_types import mapping, shown
 from solver.mesh.elements import TETRAHEDRON_EDGES
 
 
@@ -47,9 +48,10 @@ class Mesh:
         nodes = _table("nodes", self.nodes, 3, np.float64)
         if not np.isfinite(nodes).all():
             raise SolverError("mesh: nodes must be finite numbers in mm, found NaN or infinity.")
+        given = mapping("mesh: surfaces", self.surfaces, "name -> triangles")
         surfaces = {
             name: _table(f"surface {name!r}", triangles, 6, np.int32)
-            for name, triangles in self.surfaces.items()
+            for name, triangles in given.items()
         }
         tets = _table("tets", self.tets, 10, np.int32)
         for name, table in {"tets": tets, **surfaces}.items():
@@ -84,7 +86,7 @@ class Mesh:
     def triangles(self, *names: str) -> Integers:
         """All six-node triangles of the named surfaces, (k, 6); ``SolverError`` if unknown."""
         for name in names:
-            if name not in self.surfaces:
+            if not isinstance(name, str) or name not in self.surfaces:
                 known = ", ".join(sorted(self.surfaces)) or "none"
                 raise SolverError(f"mesh: no surface is called {name!r}; known surfaces: {known}.")
         parts = [self.surfaces[name] for name in names]
@@ -96,10 +98,24 @@ class Mesh:
 
 
 def _table(name: str, values: ArrayLike, width: int, dtype: DTypeLike) -> NDArray[Any]:
-    array = np.ascontiguousarray(values, dtype=dtype).view()
+    array = _numbers(name, values, dtype).view()
     if array.ndim != 2 or array.shape[1] != width:
         raise SolverError(f"mesh: {name} must have the shape (n, {width}), got {array.shape}.")
     array.flags.writeable = False
+    return array
+
+
+def _numbers(name: str, values: ArrayLike, dtype: DTypeLike) -> NDArray[Any]:
+    """Values as an array; ``SolverError`` if they are no numbers, or no whole ones of nodes."""
+    try:
+        given = np.asarray(values)
+        with np.errstate(invalid="ignore"):  # NaN is no whole number, which is found below
+            array = np.ascontiguousarray(given, dtype=dtype)
+        if given.dtype.kind == "f" and array.dtype.kind == "i" and (array != given).any():
+            raise ValueError
+    except (TypeError, ValueError):
+        kind = "whole numbers of nodes" if dtype is np.int32 else "numbers in mm"
+        raise SolverError(f"mesh: {name} must be {kind}, got {shown(values)}.") from None
     return array
 
 

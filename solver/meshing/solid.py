@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from solver.arrays import Reals
 from solver.errors import MeshingError, SolverError
+from solver.input_types import check_instance, check_number, names, shown
 from solver.mesh.elements import TETRAHEDRON_EDGES
 from solver.mesh.mesh import Mesh
 from solver.mesh.mid_nodes import SMALLEST_RATIO, jacobian_ratios, relaxed
@@ -60,6 +61,9 @@ class MeshOptions:
     field: SizeField | None = None
 
     def __post_init__(self) -> None:
+        for name in ("size", "elements_per_circle", "smallest_size"):
+            check_number(f"mesh: {name}", getattr(self, name))
+        check_instance("mesh: field", self.field, SizeField, optional=True)
         if not 0 < self.smallest_size <= self.size < np.inf:
             raise SolverError(
                 f"mesh: size = {self.size:g} mm must be finite and at least smallest_size = "
@@ -106,8 +110,8 @@ def mesh_solid(
         SolverError: the number of names is not the number of faces, or ``seconds`` is not above 0.
         OSError: ``brep`` cannot be read, or Gmsh cannot be loaded.
     """
-    if not 0 < seconds < np.inf:
-        raise SolverError(f"mesh: seconds = {seconds:g} must be finite and above 0.")
+    _check_kinds(brep, options, seconds)
+    face_names = names("mesh: face_names", face_names)
     content = brep if isinstance(brep, bytes) else brep.read_bytes()
     for factor in SIZES_TRIED:
         smaller = (options or MeshOptions()).scaled(factor)
@@ -121,6 +125,19 @@ def mesh_solid(
         raise MeshingError(folded)
     corners = np.split(arrays["corners"], np.cumsum(arrays["counts"])[:-1])
     return Mesh(nodes, tets, _named_surfaces(tets, corners, face_names))
+
+
+def _check_kinds(brep: object, options: object, seconds: float) -> None:
+    """Raise ``SolverError`` for another kind of value than belongs there."""
+    if not isinstance(brep, Path | bytes):
+        raise SolverError(
+            "mesh: brep must be a Path of a BREP file or the content of one as bytes, got "
+            f"{shown(brep)}."
+        )
+    check_instance("mesh: options", options, MeshOptions, optional=True)
+    check_number("mesh: seconds", seconds)
+    if not 0 < seconds < np.inf:
+        raise SolverError(f"mesh: seconds = {seconds:g} must be finite and above 0.")
 
 
 SIZES_TRIED = (1.0, 0.93, 0.87)

@@ -106,7 +106,9 @@ def rotation(mesh: Mesh, displacement: Reals, surface: str = "tip") -> float:
 
     The in-plane rotation of its nodes of least squares (Procrustes). Whole turns are counted along
     the body, whose neighbouring slices of nodes rotate little against each other, from the smallest
-    x to the largest, where the surface lies. So the result is a function of the state alone.
+    x to the largest, where the surface lies. So the result is a function of the state alone. Where
+    nodes are turned about another axis, as in torsion, their plane says nothing: there the rotation
+    about y that is nearest to theirs in space counts.
 
     Args:
         mesh: the undeformed body.
@@ -129,9 +131,34 @@ def rotation(mesh: Mesh, displacement: Reals, surface: str = "tip") -> float:
 SLICES = 32
 
 
+ABOUT_Y = 0.5
+"""Least cosine between y and its image for nodes to count as turned about y."""
+
+
 def _best_fit_rotation(nodes: Reals, displacement: Reals) -> float:
-    """In-plane rotation about y, radians in (-pi, pi], of nodes (k, 3) by displacements (k, 3)."""
-    before = (nodes - nodes.mean(axis=0))[:, [0, 2]]
+    """Rotation about y, radians in [-pi, pi], of nodes (k, 3) by displacements (k, 3)."""
+    before = nodes - nodes.mean(axis=0)
     moved = nodes + displacement
-    after = (moved - moved.mean(axis=0))[:, [0, 2]]
+    after = moved - moved.mean(axis=0)
+    turn = _rotation_in_space(before, after)
+    if turn[1, 1] < ABOUT_Y:
+        return _part_about_y(turn)
+    before, after = before[:, [0, 2]], after[:, [0, 2]]
     return float(np.arctan2((_quarter_turn(before) * after).sum(), (before * after).sum()))
+
+
+def _part_about_y(turn: Reals) -> float:
+    """Angle, radians, of the rotation about y nearest to one in space (3, 3); 0 if all are."""
+    sine, cosine = turn[0, 2] - turn[2, 0], turn[0, 0] + turn[2, 2]
+    return float(np.arctan2(sine, cosine)) if np.hypot(sine, cosine) > 1e-6 else 0.0
+
+
+def _rotation_in_space(before: Reals, after: Reals) -> Reals:
+    """Rotation (3, 3) of least squares from positions (k, 3) to others, without translation.
+
+    Source: W. Kabsch, Acta Crystallographica A 32, 922, 1976.
+    """
+    left, _, right = np.linalg.svd(after.T @ before)
+    left[:, 2] *= np.sign(np.linalg.det(left @ right))
+    turn: Reals = left @ right
+    return turn

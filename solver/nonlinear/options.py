@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from solver.errors import SolverError
+from solver.input_types import check_number
 
 FIRST_STEP = 0.1
 """Default, as a fraction of the load."""
@@ -53,7 +54,8 @@ class SolverOptions:
             value = getattr(self, name)
             if name in MAY_BE_MISSING and value is None:
                 continue
-            if value is None or not low < value <= high:
+            check_number(f"solver: {name}", value)
+            if not low < value <= high:
                 raise SolverError(
                     f"solver: {name} must be above {low} and at most {high}, got {value}."
                 )

@@ -16,6 +16,7 @@ import numpy as np
 
 from solver.assembly.state import State
 from solver.errors import SolverError
+from solver.input_types import check_number
 from solver.nonlinear.events import Listener
 from solver.nonlinear.loading import Loading
 from solver.nonlinear.newton import Newton
@@ -81,6 +82,7 @@ def trace(
     Raises:
         SolverError: a pressure that is not finite, no steps, steps of no length, or no load.
     """
+    check_number("pressure", pressure)
     if not np.isfinite(pressure):
         raise SolverError(f"pressure must be a finite number of MPa, got {pressure}.")
     if not (0 < longest_step < np.inf and steps >= 1):

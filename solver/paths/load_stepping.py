@@ -13,6 +13,7 @@ import numpy as np
 from solver.arrays import Reals
 from solver.assembly.state import State
 from solver.errors import SolverError
+from solver.input_types import check_number
 from solver.nonlinear.checkpoint import Checkpoint, Effort
 from solver.nonlinear.events import Guard, Listener
 from solver.nonlinear.loading import Loading
@@ -98,6 +99,7 @@ def solve(
     Raises:
         SolverError: invalid input, or numbers that are not finite.
     """
+    check_number("pressure", pressure)
     if not np.isfinite(pressure):
         raise SolverError(f"pressure must be a finite number of MPa, got {pressure}.")
     start = time.perf_counter()

@@ -10,6 +10,7 @@ import numpy as np
 
 from solver.arrays import Reals
 from solver.errors import SolverError
+from solver.input_types import check_number
 from solver.mesh.mesh import Mesh
 from solver.problem.vectors import finite
 
@@ -41,6 +42,8 @@ class Contact:
     position: float = 0.0
 
     def __post_init__(self) -> None:
+        check_number("contacts: penetration", self.penetration)
+        check_number("contacts: position", self.position)
         if self.axis not in (None, 0, 1, 2):
             raise SolverError(f"contacts: the plane's axis must be 0, 1 or 2, got {self.axis}.")
         if not 0 < self.penetration < np.inf or not np.isfinite(self.position):

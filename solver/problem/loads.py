@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import TypeAlias, get_args
 
 import numpy as np
 
 from solver.arrays import Integers, Reals
 from solver.errors import SolverError
+from solver.input_types import check_number, shown
 from solver.mesh.elements import Rule, tetrahedron_rule, triangle_rule
 from solver.mesh.mesh import Mesh
 
@@ -76,6 +77,8 @@ class Couple:
 
 Load: TypeAlias = Traction | BodyForce | PointForce | Couple
 
+LOAD_KINDS: tuple[type, ...] = get_args(Load)
+
 
 def nodal_forces(mesh: Mesh, loads: Sequence[Load]) -> Reals:
     """Consistent nodal forces (n, 3) in N of all ``loads`` but the couples.
@@ -106,7 +109,10 @@ def loaded_surfaces(loads: Sequence[Load]) -> tuple[str, ...]:
 
 def couple(loads: Sequence[Load]) -> float:
     """Sum of the couples on the moving plane, N mm; ``SolverError`` if it is not finite."""
-    moment = math.fsum(load.moment for load in loads if isinstance(load, Couple))
+    couples = [load for load in loads if isinstance(load, Couple)]
+    for load in couples:
+        check_number("load: a couple's moment", load.moment)
+    moment = math.fsum(load.moment for load in couples)
     if not math.isfinite(moment):
         raise SolverError(f"load: a couple's moment must be a finite number of N mm, got {moment}.")
     return moment
@@ -157,7 +163,11 @@ def _on_node(mesh: Mesh, load: PointForce) -> Reals:
 
 def _values(field: Field, positions: Reals) -> Reals:
     """Vectors (k, 3) of a field at positions (k, 3)."""
-    given = np.asarray(field(positions) if callable(field) else field, float)
+    value = field(positions) if callable(field) else field
+    try:
+        given = np.asarray(value, float)
+    except (TypeError, ValueError):
+        raise SolverError(f"load: needs vectors of numbers, got {shown(value)}.") from None
     if given.shape not in ((3,), positions.shape):
         raise SolverError(f"load: needs vectors of the shape {positions.shape}, got {given.shape}.")
     if not np.isfinite(given).all():

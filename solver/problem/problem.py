@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from solver.errors import SolverError
+from solver.input_types import check_instance, check_number, members_of, names, numbers
 from solver.material.law import Hyperelastic
 from solver.mesh.mesh import Mesh
 from solver.problem.supports import Supports
@@ -33,7 +34,7 @@ class SlenderAxis:
     stations: tuple[float, ...]
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "stations", tuple(float(x) for x in self.stations))
+        object.__setattr__(self, "stations", numbers("axis: stations", self.stations))
         finite = bool(np.isfinite(self.stations).all())
         if len(self.stations) < 2 or not finite or not (np.diff(self.stations) > 0).all():
             raise SolverError(
@@ -83,6 +84,7 @@ class Problem:
     springs: tuple[Spring, ...] = ()
 
     def __post_init__(self) -> None:
+        self._check_kinds()
         from solver.mesh.checks import check_mesh
         from solver.problem.contacts import check_contacts
         from solver.problem.loads import check_loads, loaded_surfaces
@@ -90,8 +92,6 @@ class Problem:
         from solver.problem.support_checks import check_pressure, check_supports
         from solver.problem.supports import fixed_displacements
 
-        object.__setattr__(self, "pressurised", tuple(self.pressurised))
-        object.__setattr__(self, "loads", tuple(self.loads))
         check_loads(self.loads, self.moving_plane)
         springs = check_springs(self.springs, self.moving_plane)
         object.__setattr__(self, "springs", springs)
@@ -106,3 +106,16 @@ class Problem:
         check_supports(self.mesh, self.supports, self.moving_plane, self.springs)
         if self.material.compliance == 0:
             check_pressure(self.mesh, fixed_displacements(self.mesh, self.supports))
+
+    def _check_kinds(self) -> None:
+        """Raise ``SolverError`` for values of another kind; sequences become tuples."""
+        from solver.problem.loads import LOAD_KINDS
+
+        check_instance("mesh", self.mesh, Mesh)
+        check_instance("material", self.material, Hyperelastic)
+        check_instance("supports", self.supports, Supports)
+        check_instance("axis", self.axis, SlenderAxis, optional=True)
+        check_instance("moving_plane", self.moving_plane, str, optional=True)
+        check_number("sharp_edge_radius", self.sharp_edge_radius)
+        object.__setattr__(self, "pressurised", names("pressurised", self.pressurised))
+        object.__setattr__(self, "loads", members_of("loads", self.loads, LOAD_KINDS))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 
 import numpy as np
@@ -37,6 +38,7 @@ def check_supports(
     """
     for surface in supports.prescribed:
         _check_motion(mesh, supports, surface)
+    _check_agreement(mesh, supports)
     if moving_plane is not None:
         _check_plane(mesh, supports, moving_plane)
     fixed = fixed_displacements(mesh, supports, moving_plane)
@@ -124,11 +126,39 @@ def _check_motion(mesh: Mesh, supports: Supports, surface: str) -> None:
         )
 
 
+LOADS_COMPARED = (1.0, 0.5, 0.25)
+"""Fractions of the load at which motions of neighbouring surfaces are compared."""
+
+
+def _check_agreement(mesh: Mesh, supports: Supports) -> None:
+    """Raise ``SolverError`` where two surfaces lead a shared node to different places."""
+    for one, other in itertools.combinations(supports.prescribed, 2):
+        nodes, first, second = np.intersect1d(
+            mesh.surface_nodes(one), mesh.surface_nodes(other), return_indices=True
+        )
+        for load in LOADS_COMPARED if len(nodes) else ():
+            motions = (
+                prescribed_motion(mesh, supports, one, load)[first],
+                prescribed_motion(mesh, supports, other, load)[second],
+            )
+            apart = np.nan_to_num(np.abs(motions[0] - motions[1]), nan=0.0)
+            if apart.max() > 1e-9 * mesh.size:
+                row, axis = np.unravel_index(apart.argmax(), apart.shape)
+                place = ", ".join(f"{x:.4g}" for x in mesh.nodes[nodes[row]])
+                raise SolverError(
+                    f"supports: at {100 * load:g} % of the load the motions of {one!r} and "
+                    f"{other!r} lead the node at ({place}) mm along {'xyz'[axis]} by "
+                    f"{motions[0][row, axis]:.4g} and {motions[1][row, axis]:.4g} mm; they must "
+                    "agree on shared nodes."
+                )
+
+
 def _check_plane(mesh: Mesh, supports: Supports, moving_plane: str) -> None:
-    if supports.clamped or supports.prescribed or moving_plane in supports.symmetry:
+    others = supports.clamped or supports.prescribed or supports.nodes
+    if others or moving_plane in supports.symmetry:
         raise SolverError(
             f"supports: the moving plane {moving_plane!r} goes with planes of symmetry other "
-            "than itself, not with clamps or prescribed motions."
+            "than itself, not with clamps, held nodes or prescribed motions."
         )
     x = mesh.nodes[mesh.surface_nodes(moving_plane), 0]
     if len(x) == 0 or np.ptp(x) > 1e-6 * mesh.size:

@@ -5,10 +5,16 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from solver.arrays import Reals
 from solver.assembly.assembly import unbalanced_forces
+from solver.problem.supports import SINGLE_NODES, held_by_each
 from solver.results.solution import Solution
+from solver.results.tractions import traction_forces
+
+Held = NDArray[np.bool_]
+"""Which displacements a support holds, (n, 3)."""
 
 
 @dataclass(frozen=True)
@@ -22,10 +28,14 @@ class Reaction:
         moment: about a given point.
 
             *Shape:* (3,) in N mm.
+        by_traction: which components of the force two supports share at some nodes, where each
+            one's part follows from the traction on its surface; the others are sums of nodal
+            forces, as accurate as the equilibrium itself.
     """
 
     force: Reals
     moment: Reals
+    by_traction: tuple[bool, bool, bool] = (False, False, False)
 
 
 def reaction(
@@ -33,8 +43,11 @@ def reaction(
 ) -> Reaction:
     """Reaction of the support on a surface.
 
-    Lever arms are those of the deformed body. Nodes that are held by two supports count in full: a
-    symmetry plane next to the surface adds its own forces, normal to itself.
+    The nodal forces that balance the body, in the components that the surface's support holds.
+    Where another support holds the same component of a node, as a clamp does at the edge of a plane
+    of symmetry, each takes the integral of the traction on its own surface, weighted by the node's
+    shape function, and an equal part of what these leave of the nodal force: the reactions of all
+    supports add up to the nodal forces. Lever arms are those of the deformed body.
 
     Args:
         solution: an equilibrium.
@@ -42,15 +55,45 @@ def reaction(
         about: point in space that the moment refers to, mm.
 
     Returns:
-        Force and moment on the body.
+        Force and moment on the body. For a surface that bears no support, those of all supports on
+        its nodes.
 
     Raises:
         SolverError: an unknown surface.
     """
     mesh = solution.problem.mesh
     nodes = mesh.surface_nodes(surface)
-    forces = unbalanced_forces(solution.problem, solution.state, solution.pressure, solution.load)
-    if len(solution.remaining_force):
-        forces = forces - solution.remaining_force
+    forces, shared = _forces(solution, surface)
     arms = mesh.nodes[nodes] + solution.displacement[nodes] - np.asarray(about, float)
-    return Reaction(forces[nodes].sum(axis=0), np.cross(arms, forces[nodes]).sum(axis=0))
+    x, y, z = (bool(shared[:, axis].any()) for axis in range(3))
+    moment = np.cross(arms, forces[nodes]).sum(axis=0)
+    return Reaction(forces[nodes].sum(axis=0), moment, (x, y, z))
+
+
+def _forces(solution: Solution, surface: str) -> tuple[Reals, Held]:
+    """Forces (n, 3) of a surface's support on the nodes, N, and where it shares them (n, 3)."""
+    problem = solution.problem
+    total = unbalanced_forces(problem, solution.state, solution.pressure, solution.load)
+    if len(solution.remaining_force):
+        total = total - solution.remaining_force
+    holders = held_by_each(problem.mesh, problem.supports, problem.moving_plane)
+    if surface not in holders:
+        held = np.logical_or.reduce([np.zeros(total.shape, bool), *holders.values()])
+        return np.where(held, total, 0.0), np.zeros(total.shape, bool)
+    held = holders.pop(surface)
+    others = {name: mask for name, mask in holders.items() if (held & mask).any()}
+    shared = held & np.logical_or.reduce([np.zeros_like(held), *others.values()])
+    if shared.any():
+        total = np.where(shared, _part(solution, total, surface, others), total)
+    return np.where(held, total, 0.0), shared
+
+
+def _part(solution: Solution, total: Reals, surface: str, others: dict[str, Held]) -> Reals:
+    """A support's part (n, 3) of nodal forces that it shares with others, N."""
+    own = traction_forces(solution, surface)
+    left, count = total - own, np.ones(total.shape)
+    for name, mask in others.items():
+        if name != SINGLE_NODES:
+            left -= np.where(mask, traction_forces(solution, name), 0.0)
+        count += mask
+    return own + left / count

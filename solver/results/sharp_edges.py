@@ -36,13 +36,14 @@ def trusted_nodes(problem: Problem) -> NDArray[np.bool_]:
 
 def _unloaded(problem: Problem) -> Integers:
     """Triangles (k, 6) that are neither pressurised nor cuts through the body."""
-    cuts = {*problem.supports.symmetry, problem.moving_plane, *problem.pressurised}
+    planes = set(problem.supports.symmetry) - set(problem.supports.immovable)
+    cuts = {*planes, problem.moving_plane, *problem.pressurised}
     return problem.mesh.triangles(*(name for name in problem.mesh.surfaces if name not in cuts))
 
 
 def _rims(problem: Problem) -> Integers:
-    """Edges (k, 3) around the clamped surfaces."""
-    edges, _ = _edges(problem.mesh.triangles(*problem.supports.clamped))
+    """Edges (k, 3) around the surfaces that are clamped, or held along two axes."""
+    edges, _ = _edges(problem.mesh.triangles(*problem.supports.immovable))
     _, first, count = np.unique(edges[:, :2], axis=0, return_index=True, return_counts=True)
     return edges[first[count == 1]]
 

@@ -12,6 +12,7 @@ from solver.assembly.pressure import enclosed_volume
 from solver.assembly.state import State
 from solver.mesh.mesh import Mesh
 from solver.problem.problem import Problem
+from solver.results.folds import folds_of
 
 StopKind: TypeAlias = Literal["", "step", "limit", "guard", "budget"]
 """What ended a path before the whole load: no step succeeds, a limit point or bifurcation, a state
@@ -110,6 +111,12 @@ class Solution:
     def stable(self) -> bool | None:
         """Whether the state is stable at constant load; None if unknown."""
         return self.path[-1].stable
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """Sentences on what makes the result less reliable than it looks: folded elements."""
+        warning = folds_of(self.problem.mesh, self.displacement).warning
+        return (warning,) if warning else ()
 
     @property
     def stable_at_volume(self) -> bool | None:

@@ -8,6 +8,7 @@ from dataclasses import replace
 import pytest
 from fakes import FakeContact, FakeEstimate, FakeEvaluation, FakeStrain, fake_report
 
+from bellows_design.analysis.whole_actuator import NO_FOLDS, FoldedElements
 from bellows_design.approval import REQUIRED_RULES, NotJudged, decide, open_question
 from bellows_design.design.overrides import with_overrides
 from bellows_design.design.shipped import load_design
@@ -190,3 +191,26 @@ def test_a_vacuum_is_reached_from_above() -> None:
     assert decide(vacuum, fake_report(), reached).approved
     (reason,) = decide(vacuum, fake_report(), short).reasons
     assert reason.kind == "convergence" and "-0.03 MPa of -0.05 MPa" in reason.message
+
+
+FOLDED = FoldedElements(3, (12.0, 1.5, 4.25), at_highest_stress=True)
+
+
+def test_elements_that_fold_at_the_highest_stress_leave_it_undecided_whatever_it_is() -> None:
+    """A finer mesh may decide; a stress far above its limit is not known either."""
+    for stress in (0.5, 3.9, 40.0):
+        found = replace(GOOD, max_von_mises_mpa=stress, folded=FOLDED)
+        verdict = decide(DESIGN, fake_report(), found)
+        (reason,) = verdict.reasons
+        assert verdict.undecided and reason.kind == "accuracy"
+        told = "3 elements of the mesh fold under the load, the nearest at (12.0, 1.5, 4.2) mm"
+        assert told in reason.message
+        assert told in open_question(DESIGN, fake_report(), found)
+
+
+def test_elements_that_fold_elsewhere_are_a_warning() -> None:
+    elsewhere = replace(FOLDED, count=1, at_highest_stress=False)
+    (warning,) = elsewhere.warnings
+    assert warning.startswith("1 element of the mesh folds under the load, at (12.0, 1.5, 4.2) mm")
+    assert decide(DESIGN, fake_report(), replace(GOOD, folded=elsewhere)).approved
+    assert FOLDED.warnings == NO_FOLDS.warnings == ()

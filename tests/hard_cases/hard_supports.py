@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from hard_bodies import CLAMPED, NEO_HOOKE, NINJAFLEX, Points
-from hard_case import Finding, HardCase, exactly, refused, true
+from hard_bodies import CLAMPED, NEO_HOOKE, NINJAFLEX, Points, solved
+from hard_case import Finding, HardCase, below, exactly, refused, true
 from meshes import box_mesh
 
-from solver import Mesh, Ogden, Problem, Supports, solve
+from solver import Mesh, Ogden, Problem, Supports, Traction, nodal_cauchy, solve
+from solver.assembly.assembly import unbalanced_forces
 from solver.mesh.elements import TRIANGLE_EDGES
 
 MESH = box_mesh((2, 1, 1))
@@ -108,6 +109,77 @@ def too_many() -> tuple[Finding, ...]:
     )
 
 
+def three_nodes() -> tuple[Finding, ...]:
+    """A block on three nodes, pulled by two opposite tractions: statically determinate."""
+    mesh = box_mesh((2, 2, 2), (1.0, 1.5, 0.8), 0.2)
+    held = {(0.0, 0.0, 0.0): (0, 1, 2), (1.0, 0.0, 0.0): (1, 2), (0.0, 1.5, 0.0): 2}
+    dead = tuple(Traction(name, (x, 0.0, 0.0)) for name, x in (("x0", -0.5), ("x1", 0.5)))
+    problem = Problem(mesh, NEO_HOOKE, Supports(nodes=held), loads=dead)
+    solution = solved(problem)
+    stretch = float(np.real(np.roots([1, -0.5, 0, -1])[0]))  # l - 1 / l^2 = 0.5 for mu = 1
+    forces = unbalanced_forces(problem, solution.state, 0.0, 1.0)
+    stress = nodal_cauchy(solution)
+    expected = [0.5 * stretch, 0, 0, 0, 0, 0]
+    calls = {
+        "no node there": (
+            lambda: Problem(mesh, NEO_HOOKE, Supports(nodes={(0.1, 0.2, 0.3): 0})), "no node lies"
+        ),
+        "too few": (
+            lambda: Problem(mesh, NEO_HOOKE, Supports(nodes={(0.0, 0.0, 0.0): (0, 1, 2)})),
+            "free to move in 3 ways",
+        ),
+    }  # fmt: skip
+    return (
+        below("largest reaction", float(np.abs(forces).max()), 1e-8, "N"),
+        below("stress off by", float(np.abs(stress - expected).max()), 1e-7, "MPa"),
+        refused("others", calls),
+    )
+
+
+def several_axes() -> tuple[Finding, ...]:
+    """A face held in two components, as it slides in one; and in three, as it is clamped."""
+    mesh = box_mesh((4, 2, 2), (2.0, 1.0, 1.0))
+    rail = Supports(symmetry={"x0": (0, 2), "y0": 1})
+    names = Supports(symmetry={"x0": (0, 1, 2)})
+    slid = solved(Problem(mesh, NINJAFLEX, rail, ("z0",)), 0.05)
+    at = slid.displacement[mesh.surface_nodes("x0")]
+    clamped = solved(Problem(mesh, NINJAFLEX, CLAMPED, ("z0",)), 0.05)
+    likewise = solved(Problem(mesh, NINJAFLEX, names, ("z0",)), 0.05)
+    return (
+        true("held along x and z only", not at[:, [0, 2]].any() and at[:, 1].any()),
+        true("all three axes are a clamp", (clamped.displacement == likewise.displacement).all()),
+    )
+
+
+def contradiction() -> tuple[Finding, ...]:
+    """Two faces that share an edge, led to different places, always or at half the load only."""
+
+    def up(by: Callable[[float], float]) -> Callable[[Points, float], Points]:
+        free = np.nan
+        return lambda at, load: np.broadcast_to([free, free, by(load)], at.shape)
+
+    def led(one: Callable[[float], float], other: Callable[[float], float]) -> Supports:
+        return Supports(("x0",), prescribed={"x1": up(one), "z1": up(other)})
+
+    def aside(at: Points, load: float) -> Points:
+        return np.broadcast_to([0.0, 0.1 * load, np.nan], at.shape)
+
+    same = led(lambda load: 0.1 * load, lambda load: 0.1 * load)
+    apart = {
+        "at every load": (led(lambda load: 0.1 * load, lambda load: 0.2 * load), "0.1 and 0.2 mm"),
+        "amid the load": (
+            led(lambda load: 0.1 * load, lambda load: 0.1 * load**2), "at 50 % of the load"
+        ),
+    }  # fmt: skip
+    calls = {name: (_problem(MESH, supports), words) for name, (supports, words) in apart.items()}
+    other = Supports(("x0",), prescribed={"x1": up(lambda load: 0.1 * load), "z1": aside})
+    return (
+        refused("motions that differ on shared nodes, with the place", calls),
+        true("motions that agree, or lead other components, are taken",
+             all(Problem(MESH, NINJAFLEX, each) for each in (same, other))),
+    )  # fmt: skip
+
+
 CASES = (
     HardCase(
         "Rank-deficient supports",
@@ -138,5 +210,23 @@ CASES = (
         "the body floats although it looks held",
         "only nodes of elements count as held",
         held_by_orphans,
+    ),
+    HardCase(
+        "A body on three nodes",
+        "forces at single nodes spoil the stress around them",
+        "single nodes are held by their position; determinate ones bear no force",
+        three_nodes,
+    ),
+    HardCase(
+        "Several components of one surface",
+        "the same surface given twice, or a clamp where a rail was meant",
+        "one axis, two or three for each surface",
+        several_axes,
+    ),
+    HardCase(
+        "Two motions that contradict each other",
+        "the one given later wins on the shared edge, without a word",
+        "refused with the place, the load and both values",
+        contradiction,
     ),
 )

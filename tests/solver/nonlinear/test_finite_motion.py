@@ -16,7 +16,10 @@ AXIS = SlenderAxis(tuple(np.linspace(0.0, 20.0, 11)))
 
 
 def bar(box: BoxMesh) -> Mesh:
-    mesh = box((20, 1, 2), (20.0, 1.0, 2.0))
+    return tipped(box((20, 1, 2), (20.0, 1.0, 2.0)))
+
+
+def tipped(mesh: Mesh) -> Mesh:
     return Mesh(mesh.nodes, mesh.tets, {**mesh.surfaces, "tip": mesh.surfaces["x1"]})
 
 
@@ -37,6 +40,36 @@ def test_tip_rotation_counts_whole_turns_and_is_positive_towards_minus_z(
     assert rotation(mesh, displacement) == pytest.approx(degrees, abs=1e-9)
     if 0 < degrees < 170:
         assert displacement[mesh.surface_nodes("tip"), 2].mean() < 0
+
+
+@pytest.mark.parametrize("degrees", [20.0, 170.0, 180.0, 200.0, 400.0, 1000.0])
+def test_torsion_and_bending_about_other_axes_are_no_rotation_about_y(
+    box: BoxMesh, degrees: float
+) -> None:
+    mesh = tipped(box((20, 2, 2), (10.0, 1.0, 1.0)))
+    centred = mesh.nodes - [0.0, 0.5, 0.5]
+    x, y, z = centred.T
+    angle = np.radians(degrees) * x / 10
+    twisted = np.stack([x, np.cos(angle) * y - np.sin(angle) * z,
+                        np.sin(angle) * y + np.cos(angle) * z], 1)  # fmt: skip
+    radius = 10 / np.radians(degrees)
+    bent = np.stack([(radius - y) * np.sin(angle), radius - (radius - y) * np.cos(angle), z], 1)
+    for moved in (twisted, bent):
+        assert rotation(mesh, moved - centred) == pytest.approx(0.0, abs=1e-9)
+
+
+def test_bending_goes_on_being_counted_where_the_body_is_twisted_as_well(box: BoxMesh) -> None:
+    """Bent by 400 degrees about y, after a twist by 40 about its own axis."""
+    mesh = tipped(box((40, 2, 2), (40.0, 1.0, 1.0)))
+    centred = mesh.nodes - [0.0, 0.5, 0.5]
+    x, y, z = centred.T
+    twist, angle = np.radians(40) * x / 40, np.radians(400) * x / 40
+    y, z = np.cos(twist) * y - np.sin(twist) * z, np.sin(twist) * y + np.cos(twist) * z
+    radius = 40 / np.radians(400)
+    moved = np.stack(
+        [(radius + z) * np.sin(angle), y, (radius + z) * np.cos(angle) - radius], axis=1
+    )
+    assert rotation(mesh, moved - centred) == pytest.approx(400.0, abs=0.5)
 
 
 def test_rotation_without_the_surface_is_not_a_number(box: BoxMesh) -> None:

@@ -1,0 +1,38 @@
+"""Tractions on surfaces of the deformed body, from the stress at the nodes."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from solver.arrays import Reals
+from solver.mesh.elements import triangle_rule
+from solver.problem.loads import Traction, nodal_forces
+from solver.results.solution import Solution
+from solver.results.stress import nodal_cauchy
+
+VOIGT = np.array([[0, 3, 5], [3, 1, 4], [5, 4, 2]])
+"""Places of the components of a tensor in the order xx, yy, zz, xy, yz, zx."""
+
+
+def traction_forces(solution: Solution, surface: str) -> Reals:
+    """Nodal forces (n, 3) of what holds a surface, N: its traction without the surface's loads.
+
+    The integral of N_a sigma n over the deformed triangles, with the Cauchy stress that is averaged
+    at their nodes and quadratic between them. The pressure and dead tractions on the surface itself
+    are no part of what its support exerts.
+    """
+    problem, rule = solution.problem, triangle_rule()
+    mesh, cells = problem.mesh, problem.mesh.triangles(surface)
+    stress = nodal_cauchy(solution)[cells][..., VOIGT]
+    if surface in problem.pressurised:
+        stress = stress + solution.pressure * np.eye(3)
+    places = (mesh.nodes + solution.displacement)[cells]
+    tangents = np.einsum("qad,kai->dkqi", rule.gradients, places)
+    areas = np.cross(tangents[0], tangents[1])
+    at_points = np.einsum("qa,kaij->kqij", rule.quadratic, stress)
+    parts = np.einsum("q,qa,kqij,kqj->kai", rule.weights, rule.quadratic, at_points, areas)
+    forces = np.zeros(mesh.nodes.shape)
+    np.add.at(forces, cells, parts)
+    dead = [load for load in problem.loads if isinstance(load, Traction)]
+    on_it = [load for load in dead if load.surface == surface]
+    return forces - solution.load * nodal_forces(mesh, on_it)
