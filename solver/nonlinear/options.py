@@ -23,7 +23,9 @@ class SolverOptions:
         smallest_step: fraction of the load; a path stops where a step would be shorter.
         maximum_iterations: of Newton's method at one load; twice as many where surfaces touch.
         tolerance: bound of the components of the last Newton correction at the whole load, in units
-            of the body's diagonal; the error left after that correction is far smaller.
+            of the body's diagonal; the error left after that correction is far smaller. That of the
+            hydrostatic pressure may be a hundred times as large, relative to the material's initial
+            shear modulus and the largest pressure.
         loose_tolerance: the same at smaller loads, or a twentieth of a mean edge of the mesh if
             that is less (a slender body is stiff against motions that are small against its
             length), of a correction by the tangent of the state itself.
