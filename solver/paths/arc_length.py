@@ -31,6 +31,9 @@ from solver.results.solution import PathPoint, Solution
 LONGEST_STEP = 0.05
 """Longest step, root mean square over the nodes, in units of the body's diagonal."""
 
+AROUND = ((0.95, 1.05), (0.9, 1.05), (0.9, 1.2))
+"""Fractions of a load, before and behind a bifurcation that is looked for near it."""
+
 
 @dataclass(frozen=True)
 class Trace:
@@ -146,6 +149,27 @@ def limit_ahead(
     follower = PathFollower(Arcs.of(newton, LONGEST_STEP))
     arcs = follower.along(follower.arcs.start(state, load, first_step))
     return next((limit for _, limit in islice(arcs, steps + 1) if limit), None)
+
+
+def bifurcation_near(newton: Newton, state: State, load: float) -> Limit | None:
+    """The bifurcation near a state that has begun to bend away, as an imperfect body does.
+
+    A body without the imperfection would go straight on from a lower load, to where it is unstable;
+    such a step finds that branch.
+    """
+    arcs = Arcs.of(newton, LONGEST_STEP)
+    bent = arcs.start(state, load, FIRST_STEP)
+    for share, beyond in AROUND if not bent.failure else ():
+        before = arcs.at_load(bent, share * load)
+        if before.failure or before.unstable_modes != 0:
+            continue
+        behind = arcs.at_load(before, beyond * load)
+        if behind.failure or not behind.unstable_modes:
+            continue
+        found = limit_between(arcs, before, behind)
+        if found is not None and found.limit is not None:
+            return found.limit
+    return None
 
 
 @dataclass(frozen=True)

@@ -343,12 +343,18 @@ def _stop_kind(newton: Newton, segment: Segment[Attempt]) -> StopKind:
 
 
 def _limit_near(newton: Newton, state: State, load: float) -> Limit | None:
-    """The limit point that explains why no step from a state succeeds, if there is one."""
-    from solver.paths.arc_length import limit_ahead
+    """The limit point that explains why no step from a state succeeds, if there is one.
+
+    A stable state may lie beyond the bifurcation of a body that bends away before it.
+    """
+    from solver.paths.arc_length import bifurcation_near, limit_ahead
 
     step = _control(newton.options).smallest_at(load)
     limit = limit_ahead(newton, state, load, step, LIMIT_STEPS)
-    near = limit is not None and -1e-6 * load <= limit.point.load - load <= LIMIT_DISTANCE * load
+    if limit is not None and -1e-6 * load <= limit.point.load - load <= LIMIT_DISTANCE * load:
+        return limit
+    limit = bifurcation_near(newton, state, load)
+    near = limit is not None and abs(limit.point.load - load) <= LIMIT_DISTANCE * load
     return limit if near else None
 
 

@@ -79,6 +79,15 @@ def test_a_walk_by_load_says_where_a_column_buckles() -> None:
     assert "stability is lost at" in solution.message
 
 
+@needs_inertia
+@pytest.mark.parametrize("loads", [3.0, 8.0])
+def test_a_walk_that_bends_away_before_it_buckles_says_where(loads: float) -> None:
+    solution = solve(lopsided(loads))
+    assert not solution.converged and solution.stopped_by == "limit"
+    assert loads * (solution.limit or 0.0) == pytest.approx(1.0185, abs=5e-3)
+    assert solution.stable and "stability is lost" in solution.message
+
+
 def test_a_bracket_that_could_not_be_narrowed_is_told_as_one() -> None:
     before, behind = (PathPoint(0.1 * load, 0.0, 1, 0.0, 0.0, load) for load in (0.5, 0.8))
     text = Limit("bifurcation", behind, (before, behind)).describe
