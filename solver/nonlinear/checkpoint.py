@@ -64,7 +64,8 @@ class Checkpoint:
             with np.load(path, allow_pickle=False) as file:
                 return _checkpoint({name: file[name] for name in file.files})
         except (KeyError, ValueError, TypeError, EOFError, BadZipFile) as error:
-            raise SolverError(f"checkpoint: {Path(path).name} does not hold one ({error}).") from error
+            name = Path(path).name
+            raise SolverError(f"checkpoint: {name} does not hold one ({error}).") from error
 
     def _arrays(self) -> dict[str, Any]:
         points = np.array([[np.nan if v is None else v for v in astuple(p)] for p in self.points])
