@@ -16,7 +16,8 @@ import numpy as np
 
 from solver.assembly.state import State
 from solver.errors import SolverError
-from solver.input_types import check_number
+from solver.input_types import check_function, check_number
+from solver.nonlinear.arguments import check_arguments
 from solver.nonlinear.events import Listener
 from solver.nonlinear.loading import Loading
 from solver.nonlinear.newton import Newton
@@ -31,8 +32,8 @@ from solver.results.solution import PathPoint, Solution
 LONGEST_STEP = 0.05
 """Longest step, root mean square over the nodes, in units of the body's diagonal."""
 
-AROUND = ((0.95, 1.05), (0.9, 1.05), (0.9, 1.2))
-"""Fractions of a load, before and behind a bifurcation that is looked for near it."""
+BEFORE, BEHIND = (0.95, 0.9, 0.8, 0.0), (1.05, 1.2)
+"""Fractions of a load between which a bifurcation near it is looked for, in this order."""
 
 
 @dataclass(frozen=True)
@@ -85,7 +86,10 @@ def trace(
     Raises:
         SolverError: a pressure that is not finite, no steps, steps of no length, or no load.
     """
-    check_number("pressure", pressure)
+    check_arguments(problem, options, listener, after)
+    check_function("until", until)
+    for name, given in (("pressure", pressure), ("longest_step", longest_step), ("steps", steps)):
+        check_number(name if name == "pressure" else f"trace: {name}", given)
     if not np.isfinite(pressure):
         raise SolverError(f"pressure must be a finite number of MPa, got {pressure}.")
     if not (0 < longest_step < np.inf and steps >= 1):
@@ -152,24 +156,34 @@ def limit_ahead(
 
 
 def bifurcation_near(newton: Newton, state: State, load: float) -> Limit | None:
-    """The bifurcation near a state that has begun to bend away, as an imperfect body does.
+    """The bifurcation near a state that may have begun to bend away, as an imperfect body does.
 
-    A body without the imperfection would go straight on from a lower load, to where it is unstable;
-    such a step finds that branch.
+    There the path points along the mode that buckles. Without the imperfection the body would go
+    straight on, to where it is unstable: a step from a lower load finds that branch.
     """
     arcs = Arcs.of(newton, LONGEST_STEP)
-    bent = arcs.start(state, load, FIRST_STEP)
-    for share, beyond in AROUND if not bent.failure else ():
-        before = arcs.at_load(bent, share * load)
-        if before.failure or before.unstable_modes != 0:
+    for share in BEFORE:
+        before = _straight(arcs, state, share * load)
+        if before is None:
             continue
-        behind = arcs.at_load(before, beyond * load)
-        if behind.failure or not behind.unstable_modes:
-            continue
-        found = limit_between(arcs, before, behind)
-        if found is not None and found.limit is not None:
-            return found.limit
+        for beyond in BEHIND:
+            behind = arcs.at_load(before, beyond * load)
+            if not behind.failure and behind.unstable_modes:
+                found = limit_between(arcs, before, behind)
+                return found.limit if found else None
     return None
+
+
+def _straight(arcs: Arcs, bent: State, load: float) -> Arc | None:
+    """The stable arc at a lower load than that of a ``bent`` state; at no load the path's start."""
+    state = arcs.newton.loading.start
+    if load:
+        found = arcs.newton.correct(bent, load, arcs.newton.options.tolerance)
+        if found.failure:
+            return None
+        state = found.state
+    arc = arcs.start(state, load, FIRST_STEP)
+    return None if arc.failure or arc.unstable_modes != 0 else arc
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,8 @@ import numpy as np
 from solver.arrays import Reals
 from solver.assembly.state import State
 from solver.errors import SolverError
-from solver.input_types import check_number
+from solver.input_types import check_function, check_instance, check_number, numbers, shown
+from solver.nonlinear.arguments import check_arguments, check_initial
 from solver.nonlinear.checkpoint import Checkpoint, Effort
 from solver.nonlinear.events import Guard, Listener
 from solver.nonlinear.loading import Loading
@@ -99,12 +100,16 @@ def solve(
     Raises:
         SolverError: invalid input, or numbers that are not finite.
     """
+    check_arguments(problem, options, listener, after)
+    check_initial(initial)
+    check_instance("resume", resume, Checkpoint, optional=True)
+    check_function("guard", guard)
     check_number("pressure", pressure)
     if not np.isfinite(pressure):
         raise SolverError(f"pressure must be a finite number of MPa, got {pressure}.")
     start = time.perf_counter()
     loading = Loading.of(problem, float(pressure), after)
-    loads = _stops(stops, loading)
+    loads = _stops(numbers("stops", stops), loading)
     newton = Newton(problem, loading, options or SolverOptions(), listener)
     path = None
     if resume is not None:
@@ -163,18 +168,20 @@ class LoadStepper:
 def guarded(attempt: Attempt, guard: Guard | None) -> Attempt:
     """An attempt, failed if ``guard`` does not accept its equilibrium."""
     reason = "" if attempt.failure or guard is None else guard(attempt.state)
+    if reason and not isinstance(reason, str):
+        raise SolverError(f"guard must return a text, empty to go on, got {shown(reason)}.")
     return replace(attempt, failure=reason, guarded=True) if reason else attempt
 
 
 def _stops(pressures: Sequence[float], loading: Loading) -> tuple[float, ...]:
     """Pressures, or without one fractions of the load, as ascending fractions within (0, 1)."""
     (start, pressure), rate = loading.pressures, loading.pressure_rate
-    loads = sorted({(float(stop) - start) / rate if rate else float(stop) for stop in pressures})
+    loads = sorted({(stop - start) / rate if rate else stop for stop in pressures})
     if not all(0 < load <= 1 + 1e-12 for load in loads):
         end = (
             f"{start:g} and the pressure of {pressure:g} MPa" if rate else "0 and the whole load, 1"
         )
-        raise SolverError(f"stops must lie between {end}, got {list(pressures)}.")
+        raise SolverError(f"stops must lie between {end}, got {[*pressures]}.")
     return tuple(load for load in loads if load < 1 - 1e-12)
 
 

@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 from inertia import needs_inertia
-from meshes import box_mesh, doubled_mesh
+from meshes import box_mesh, doubled_mesh, tube_mesh
 
 from solver import (
     Limit,
@@ -86,6 +86,26 @@ def test_a_walk_that_bends_away_before_it_buckles_says_where(loads: float) -> No
     assert not solution.converged and solution.stopped_by == "limit"
     assert loads * (solution.limit or 0.0) == pytest.approx(1.0185, abs=5e-3)
     assert solution.stable and "stability is lost" in solution.message
+
+
+@needs_inertia
+def test_so_does_one_in_a_stage_that_begins_near_the_critical_load() -> None:
+    solution = solve(lopsided(3.0), after=solve(lopsided(0.8)))
+    assert solution.stopped_by == "limit"
+    assert 0.8 + 2.2 * (solution.limit or 0.0) == pytest.approx(1.0185, abs=5e-3)
+
+
+@needs_inertia
+def test_a_ring_under_pressure_from_outside_buckles_at_levys_load() -> None:
+    """p = 3 E I / ((1 - nu^2) R^3) in plane strain; the load is passed by 2 and by 50 times."""
+    mesh = tube_mesh(9.5, 10.5, 1.0, (1, 16, 1), np.pi)
+    symmetry = {"start": 1, "end": 1, "z0": 2, "z1": 2}
+    supports = Supports(symmetry=symmetry, nodes={(9.5, 0.0, 0.0): 0})
+    ring = Problem(mesh, NEO_HOOKE, supports, ("outside",))
+    for pressure in (0.003, 0.05):
+        solution = solve(ring, pressure)
+        assert solution.stopped_by == "limit"
+        assert solution.limit == pytest.approx(0.001, rel=0.015)
 
 
 def test_a_bracket_that_could_not_be_narrowed_is_told_as_one() -> None:
