@@ -273,6 +273,16 @@ def test_a_volume_goes_on_from_a_stage_beyond_the_limit_of_the_pressure() -> Non
     assert on.load_steps < at_once.load_steps
 
 
+def test_a_goal_a_thousand_times_the_volume_is_reached() -> None:
+    """Ten times as large: its first step, a tenth, turns elements inside out."""
+    ball = Problem(sphere_mesh(10.0, 12.0, 1, 2), NEO_HOOKE, PLANES, ("inside",))
+    rest = cavity_volume(ball.mesh, np.zeros_like(ball.mesh.nodes), ("inside",))
+    solution = inflate(ball, 1000 * rest)
+    assert solution.converged and solution.refused_steps > 0
+    expected = sphere_pressure(NEO_HOOKE, 10.0, 12.0, 10.0)
+    assert solution.pressure == pytest.approx(expected, rel=3e-3)
+
+
 def test_the_volume_that_there_is_already_takes_no_step() -> None:
     """Also where it is off by rounding."""
     ball = Problem(sphere_mesh(10.0, 12.0, 1, 2), NEO_HOOKE, PLANES, ("inside",))
