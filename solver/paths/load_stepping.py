@@ -54,6 +54,12 @@ SHORTEST_JUMP = 0.02
 """Displacement, in body diagonals, to which the ratio may be exceeded on the same branch."""
 
 
+UNSTABLE_START = (
+    "the state that the stage begins with is unstable under the stage's supports; what held it "
+    "before and is gone may be led away instead"
+)
+
+
 def solve(
     problem: Problem,
     pressure: float = 0.0,
@@ -303,9 +309,20 @@ def _stopped(newton: Newton, segment: Segment[Attempt], points: Points) -> Path:
     coarse = f" (its last state is in equilibrium to {tolerance:.2g} diagonals only)"
     note = coarse if tolerance > newton.options.tolerance else ""
     if limit is None:
-        return Path(state, points, segment.failure + note, stopped_by=kind)
+        lost = kind == "step" and _starts_unstable(newton, points)
+        reason = UNSTABLE_START if lost else segment.failure
+        return Path(state, points, reason + note, stopped_by=kind)
     reason = limit.describe(max(newton.loading.pressures, key=abs)) + note
     return Path(state, points, reason, limit.point.load, "limit")
+
+
+def _starts_unstable(newton: Newton, points: Points) -> bool:
+    """Whether a path got nowhere because what the stage begins with is unstable."""
+    return (
+        len(newton.loading.supports_from) > 0
+        and points[-1].load == 0
+        and points[-1].stable is False
+    )
 
 
 def _last_equilibrium(

@@ -15,6 +15,7 @@ from solver import (
     Ogden,
     PathPoint,
     Problem,
+    RigidPlane,
     SolverOptions,
     Supports,
     Trace,
@@ -116,6 +117,19 @@ def test_a_bracket_that_could_not_be_narrowed_is_told_as_one() -> None:
         "buckles"
     )
     assert "between 50 % of the load and 80 % of the load" in text(0.0)
+
+
+@pytest.mark.parametrize("gap", [0.0, 0.1])
+def test_a_plane_that_moves_is_load_enough_also_before_it_touches(gap: float) -> None:
+    plane = RigidPlane("x1", 1e-4, (-1, 0, 0), (1 + gap, 0, 0), lambda load: (-0.4 * load, 0, 0))
+    mesh = box_mesh((2, 2, 2), (1.0, 1.0, 1.0))
+    path = trace(Problem(mesh, NEO_HOOKE, PLANES, contacts=(plane,)))
+    assert_monotonic(path)
+    assert path.message == "the asked load is reached."
+    end = mesh.surface_nodes("x1")
+    for point, state in zip(path.points, path.states, strict=True):
+        expected = min(1.0, 1 + gap - 0.4 * point.load)
+        assert 1 + state.displacement[end, 0] == pytest.approx(expected, abs=4e-4)
 
 
 def test_both_sides_of_a_limit_point_are_lower_and_near(sphere: Callable[..., Mesh]) -> None:
