@@ -175,7 +175,10 @@ def bifurcation_near(newton: Newton, state: State, load: float) -> Limit | None:
 
 
 def _straight(arcs: Arcs, bent: State, load: float) -> Arc | None:
-    """The stable arc at a lower load than that of a ``bent`` state; at no load the path's start."""
+    """The arc at a lower load than that of a ``bent`` state; at no load the path's start.
+
+    None where it is known to be unstable.
+    """
     state = arcs.newton.loading.start
     if load:
         found = arcs.newton.correct(bent, load, arcs.newton.options.tolerance)
@@ -183,7 +186,7 @@ def _straight(arcs: Arcs, bent: State, load: float) -> Arc | None:
             return None
         state = found.state
     arc = arcs.start(state, load, FIRST_STEP)
-    return None if arc.failure or arc.unstable_modes != 0 else arc
+    return None if arc.failure or arc.unstable_modes else arc
 
 
 @dataclass(frozen=True)
