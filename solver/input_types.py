@@ -51,6 +51,12 @@ def check_instance(what: str, given: object, kind: type, optional: bool = False)
         raise SolverError(f"{what} must be {_alternatives((kind,))}, got {shown(given)}.")
 
 
+def check_function(what: str, given: object) -> None:
+    """Raise ``SolverError`` unless ``given`` can be called, or is None."""
+    if given is not None and not callable(given):
+        raise SolverError(f"{what} must be a function, got {shown(given)}.")
+
+
 def check_number(what: str, given: object) -> None:
     """Raise ``SolverError`` unless ``given`` is a real number, NaN and infinity included."""
     if not isinstance(given, Real) or isinstance(given, bool):

@@ -46,8 +46,9 @@ class Checkpoint:
     points: tuple[PathPoint, ...]
     effort: tuple[int, int, int, int]
 
-    def save(self, path: Path) -> None:
+    def save(self, path: str | Path) -> None:
         """Write to ``path``, completely or not at all."""
+        path = Path(path)
         temporary = path.with_name(f".{path.name}.{os.getpid()}")
         try:
             with temporary.open("wb") as file:
@@ -57,13 +58,14 @@ class Checkpoint:
             temporary.unlink(missing_ok=True)
 
     @staticmethod
-    def load_from(path: Path) -> Checkpoint:
+    def load_from(path: str | Path) -> Checkpoint:
         """Read what ``save`` wrote. Raises ``SolverError`` if the file holds anything else."""
         try:
             with np.load(path, allow_pickle=False) as file:
                 return _checkpoint({name: file[name] for name in file.files})
         except (KeyError, ValueError, TypeError, EOFError, BadZipFile) as error:
-            raise SolverError(f"checkpoint: {path.name} does not hold one ({error}).") from error
+            name = Path(path).name
+            raise SolverError(f"checkpoint: {name} does not hold one ({error}).") from error
 
     def _arrays(self) -> dict[str, Any]:
         points = np.array([[np.nan if v is None else v for v in astuple(p)] for p in self.points])

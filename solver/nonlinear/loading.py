@@ -46,7 +46,7 @@ class Loading:
 
     def pressure(self, load: float) -> float:
         """Pressure at a fraction of the load, MPa."""
-        return self.pressures[0] + load * self.pressure_rate
+        return self.pressures[1] if load == 1 else self.pressures[0] + load * self.pressure_rate
 
     @property
     def pressure_rate(self) -> float:

@@ -16,7 +16,8 @@ import numpy as np
 
 from solver.assembly.state import State
 from solver.errors import SolverError
-from solver.input_types import check_number
+from solver.input_types import check_function, check_number
+from solver.nonlinear.arguments import check_arguments
 from solver.nonlinear.events import Listener
 from solver.nonlinear.loading import Loading
 from solver.nonlinear.newton import Newton
@@ -30,6 +31,9 @@ from solver.results.solution import PathPoint, Solution
 
 LONGEST_STEP = 0.05
 """Longest step, root mean square over the nodes, in units of the body's diagonal."""
+
+BEFORE, BEHIND = (0.95, 0.9, 0.8, 0.0), (1.05, 1.2)
+"""Fractions of a load between which a bifurcation near it is looked for, in this order."""
 
 
 @dataclass(frozen=True)
@@ -82,7 +86,10 @@ def trace(
     Raises:
         SolverError: a pressure that is not finite, no steps, steps of no length, or no load.
     """
-    check_number("pressure", pressure)
+    check_arguments(problem, options, listener, after)
+    check_function("until", until)
+    for name, given in (("pressure", pressure), ("longest_step", longest_step), ("steps", steps)):
+        check_number(name if name == "pressure" else f"trace: {name}", given)
     if not np.isfinite(pressure):
         raise SolverError(f"pressure must be a finite number of MPa, got {pressure}.")
     if not (0 < longest_step < np.inf and steps >= 1):
@@ -146,6 +153,40 @@ def limit_ahead(
     follower = PathFollower(Arcs.of(newton, LONGEST_STEP))
     arcs = follower.along(follower.arcs.start(state, load, first_step))
     return next((limit for _, limit in islice(arcs, steps + 1) if limit), None)
+
+
+def bifurcation_near(newton: Newton, state: State, load: float) -> Limit | None:
+    """The bifurcation near a state that may have begun to bend away, as an imperfect body does.
+
+    There the path points along the mode that buckles. Without the imperfection the body would go
+    straight on, to where it is unstable: a step from a lower load finds that branch.
+    """
+    arcs = Arcs.of(newton, LONGEST_STEP)
+    for share in BEFORE:
+        before = _straight(arcs, state, share * load)
+        if before is None:
+            continue
+        for beyond in BEHIND:
+            behind = arcs.at_load(before, beyond * load)
+            if not behind.failure and behind.unstable_modes:
+                found = limit_between(arcs, before, behind)
+                return found.limit if found else None
+    return None
+
+
+def _straight(arcs: Arcs, bent: State, load: float) -> Arc | None:
+    """The arc at a lower load than that of a ``bent`` state; at no load the path's start.
+
+    None where it is known to be unstable.
+    """
+    state = arcs.newton.loading.start
+    if load:
+        found = arcs.newton.correct(bent, load, arcs.newton.options.tolerance)
+        if found.failure:
+            return None
+        state = found.state
+    arc = arcs.start(state, load, FIRST_STEP)
+    return None if arc.failure or arc.unstable_modes else arc
 
 
 @dataclass(frozen=True)

@@ -1,8 +1,8 @@
 """Steps along an equilibrium path: predicted along its tangent, corrected at a right angle to it.
 
 Lengths are root mean squares of the displacements over the unknowns. Nodes that are led have no
-unknowns, and where a motion moves them there may be nothing else that moves: then the load counts
-too, its whole as much as the longest step.
+unknowns, and where a motion moves them there may be nothing else that moves, nor before a moving
+plane touches: then the load counts too, its whole as much as the longest step.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from solver.assembly.assembly import Equilibrium
 from solver.assembly.state import State
 from solver.nonlinear.newton import Newton
 from solver.paths.bordering import EquilibriumPoint, Row, corrected, equilibrium_point
+from solver.problem.contacts import planes_move
 
 FEW_ITERATIONS = 4
 GROWTH = 1.5
@@ -82,7 +83,7 @@ class Arcs:
         measured = np.ones(numbering.size, bool)
         measured[numbering.pressure] = False
         longest = longest_step * newton.problem.mesh.size
-        led = bool(newton.problem.supports.prescribed)
+        led = newton.problem.supports.prescribed or planes_move(newton.problem.contacts)
         return Arcs(newton, measured, longest if led else 0.0, longest)
 
     def start(self, state: State, load: float, first_step: float) -> Arc:

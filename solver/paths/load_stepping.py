@@ -13,7 +13,8 @@ import numpy as np
 from solver.arrays import Reals
 from solver.assembly.state import State
 from solver.errors import SolverError
-from solver.input_types import check_number
+from solver.input_types import check_function, check_instance, check_number, numbers, shown
+from solver.nonlinear.arguments import check_arguments, check_initial
 from solver.nonlinear.checkpoint import Checkpoint, Effort
 from solver.nonlinear.events import Guard, Listener
 from solver.nonlinear.loading import Loading
@@ -51,6 +52,12 @@ JUMP_RATIO = 4.0
 
 SHORTEST_JUMP = 0.02
 """Displacement, in body diagonals, to which the ratio may be exceeded on the same branch."""
+
+
+UNSTABLE_START = (
+    "the state that the stage begins with is unstable under the stage's supports; what held it "
+    "before and is gone may be led away instead"
+)
 
 
 def solve(
@@ -99,12 +106,16 @@ def solve(
     Raises:
         SolverError: invalid input, or numbers that are not finite.
     """
+    check_arguments(problem, options, listener, after)
+    check_initial(initial)
+    check_instance("resume", resume, Checkpoint, optional=True)
+    check_function("guard", guard)
     check_number("pressure", pressure)
     if not np.isfinite(pressure):
         raise SolverError(f"pressure must be a finite number of MPa, got {pressure}.")
     start = time.perf_counter()
     loading = Loading.of(problem, float(pressure), after)
-    loads = _stops(stops, loading)
+    loads = _stops(numbers("stops", stops), loading)
     newton = Newton(problem, loading, options or SolverOptions(), listener)
     path = None
     if resume is not None:
@@ -163,18 +174,20 @@ class LoadStepper:
 def guarded(attempt: Attempt, guard: Guard | None) -> Attempt:
     """An attempt, failed if ``guard`` does not accept its equilibrium."""
     reason = "" if attempt.failure or guard is None else guard(attempt.state)
+    if reason and not isinstance(reason, str):
+        raise SolverError(f"guard must return a text, empty to go on, got {shown(reason)}.")
     return replace(attempt, failure=reason, guarded=True) if reason else attempt
 
 
 def _stops(pressures: Sequence[float], loading: Loading) -> tuple[float, ...]:
     """Pressures, or without one fractions of the load, as ascending fractions within (0, 1)."""
     (start, pressure), rate = loading.pressures, loading.pressure_rate
-    loads = sorted({(float(stop) - start) / rate if rate else float(stop) for stop in pressures})
+    loads = sorted({(stop - start) / rate if rate else stop for stop in pressures})
     if not all(0 < load <= 1 + 1e-12 for load in loads):
         end = (
             f"{start:g} and the pressure of {pressure:g} MPa" if rate else "0 and the whole load, 1"
         )
-        raise SolverError(f"stops must lie between {end}, got {list(pressures)}.")
+        raise SolverError(f"stops must lie between {end}, got {[*pressures]}.")
     return tuple(load for load in loads if load < 1 - 1e-12)
 
 
@@ -296,9 +309,20 @@ def _stopped(newton: Newton, segment: Segment[Attempt], points: Points) -> Path:
     coarse = f" (its last state is in equilibrium to {tolerance:.2g} diagonals only)"
     note = coarse if tolerance > newton.options.tolerance else ""
     if limit is None:
-        return Path(state, points, segment.failure + note, stopped_by=kind)
+        lost = kind == "step" and _starts_unstable(newton, points)
+        reason = UNSTABLE_START if lost else segment.failure
+        return Path(state, points, reason + note, stopped_by=kind)
     reason = limit.describe(max(newton.loading.pressures, key=abs)) + note
     return Path(state, points, reason, limit.point.load, "limit")
+
+
+def _starts_unstable(newton: Newton, points: Points) -> bool:
+    """Whether a path got nowhere because what the stage begins with is unstable."""
+    return (
+        len(newton.loading.supports_from) > 0
+        and points[-1].load == 0
+        and points[-1].stable is False
+    )
 
 
 def _last_equilibrium(
@@ -343,12 +367,18 @@ def _stop_kind(newton: Newton, segment: Segment[Attempt]) -> StopKind:
 
 
 def _limit_near(newton: Newton, state: State, load: float) -> Limit | None:
-    """The limit point that explains why no step from a state succeeds, if there is one."""
-    from solver.paths.arc_length import limit_ahead
+    """The limit point that explains why no step from a state succeeds, if there is one.
+
+    A stable state may lie beyond the bifurcation of a body that bends away before it.
+    """
+    from solver.paths.arc_length import bifurcation_near, limit_ahead
 
     step = _control(newton.options).smallest_at(load)
     limit = limit_ahead(newton, state, load, step, LIMIT_STEPS)
-    near = limit is not None and -1e-6 * load <= limit.point.load - load <= LIMIT_DISTANCE * load
+    if limit is not None and -1e-6 * load <= limit.point.load - load <= LIMIT_DISTANCE * load:
+        return limit
+    limit = bifurcation_near(newton, state, load)
+    near = limit is not None and abs(limit.point.load - load) <= LIMIT_DISTANCE * load
     return limit if near else None
 
 

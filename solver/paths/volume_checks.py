@@ -18,6 +18,9 @@ from solver.problem.supports import given_displacements
 FIXED_VOLUME = 1e-9
 """A volume that changes by less than this fraction at a pressure of the shear modulus is fixed."""
 
+SAME = 1e-12
+"""Relative differences of volumes below this one are rounding."""
+
 NO_VOLUME = 1e-12
 """Volume, of the cube of the body's diagonal, that counts as none, as beside a flat membrane."""
 
@@ -84,12 +87,15 @@ def volume_at_start(newton: Newton) -> float:
 
 
 def signed_targets(rest: float, sign: float, volumes: Sequence[float]) -> list[float]:
-    """Signed volumes in order from the one at no pressure, ``rest``; ``sign``: of the given ones.
+    """Signed volumes in order from the one at the start, ``rest``; ``sign``: of the given ones.
 
-    Raises ``SolverError`` if one is of another sign than ``rest`` or out of order.
+    Those that differ from ``rest`` by rounding are taken for it. Raises ``SolverError`` if one is
+    of another sign than ``rest`` or out of order.
     """
-    last = sign * volumes[-1]
-    targets = sorted({sign * volume for volume in volumes}, reverse=last < rest)
+    signed = [sign * volume for volume in volumes]
+    signed = [rest if abs(each - rest) <= SAME * abs(rest) else each for each in signed]
+    last = signed[-1]
+    targets = sorted(set(signed), reverse=last < rest)
     inside = all(target * (rest or 1.0) > 0 for target in targets)
     if not inside or targets[-1] != last or (targets[0] - rest) * (last - rest) < 0:
         *stops, volume = volumes

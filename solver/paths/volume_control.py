@@ -10,6 +10,10 @@ import time
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
+import numpy as np
+
+from solver.input_types import check_number, numbers
+from solver.nonlinear.arguments import check_arguments
 from solver.nonlinear.checkpoint import Effort
 from solver.nonlinear.events import Listener
 from solver.nonlinear.loading import Loading
@@ -78,7 +82,9 @@ def inflate(
             wrong sign, or not in order between the one at no pressure and ``volume``.
     """
     start = time.perf_counter()
-    volumes = tuple(float(each) for each in (*stops, volume))
+    check_arguments(problem, options, listener, after)
+    check_number("inflate: volume", volume)
+    volumes = (*numbers("inflate: stops", stops), float(volume))
     check_volumes(volumes)
     check_closed(problem)
     options = options or SolverOptions()
@@ -243,12 +249,17 @@ def _walked(newton: Newton, volumes: tuple[float, ...], loaded: Solution | None)
 
 def _extended(walk: Walk, target: float, options: SolverOptions) -> Walk:
     """A path followed on to a volume, as far as steps succeed."""
-    smallest = options.smallest_step * abs(target - walk.segment.position)
+    smallest = options.smallest_step * _scale(walk.segment.position, target)
     control = StepControl(options.growth, options.cut, smallest)
     segment = follow(walk.stepper, replace(walk.segment, points=()), target, control)
     points = (*walk.points, *segment.points)
     reached = () if segment.failure else (AtStop(segment.reached.held.found.state, points),)
     return replace(walk, segment=segment, points=points, at_stops=(*walk.at_stops, *reached))
+
+
+def _scale(here: float, target: float) -> float:
+    """Of steps from a volume to another: a goal far off does not make the smallest one coarse."""
+    return min(abs(target - here), abs(here) or np.inf)
 
 
 def _solution(newton: Newton, walk: Walk) -> Solution:

@@ -77,7 +77,7 @@ class Solution:
             constant pressure; None without one.
         stopped_by: what ended the path; empty if ``converged``.
         at_stops: the equilibria at the stops that were asked for, as far as they were reached, in
-            ascending order of the load.
+            ascending order of the load; after a ``resume`` those behind the checkpoint.
         remaining_force: of the stage before, as dead forces on the nodes, at an equilibrium short
             of the whole load.
 

@@ -8,7 +8,7 @@ from solver.results.solution import Solution
 from solver.results.stress import nodal_pressure, nodal_von_mises
 
 
-def write_vtu(path: Path, solution: Solution) -> None:
+def write_vtu(path: str | Path, solution: Solution) -> None:
     """Write a file for ParaView.
 
     It holds the undeformed mesh with displacement (mm), von Mises stress and hydrostatic pressure

@@ -23,8 +23,10 @@ from solver import (
     SolverOptions,
     Supports,
     Traction,
+    inflate,
     solve,
     trace,
+    work,
 )
 from solver.material.mooney_rivlin import MooneyRivlin
 from solver.meshing import MeshOptions, mesh_solid
@@ -179,6 +181,41 @@ def meshes() -> Calls:
     return calls
 
 
+def walks() -> Calls:
+    """What calls that follow a path take."""
+    problem = _problem()
+    calls = _each(
+        lambda **change: solve(**{"problem": problem, "pressure": 0.1, **change}),
+        "",
+        problem=(None, BOX, [problem]),
+        options=(0.1, {"first_step": 0.1}),
+        listener=(3, "step"),
+        initial=(BOX.nodes, (BOX.nodes,), "zero"),
+        stops=(0.05, "0.05", (None,)),
+        resume=("walk.npz", problem),
+        guard=("folded", lambda state: True),
+        after=(problem, "first", BOX.nodes),
+    )
+    calls |= _each(
+        lambda **change: trace(**{"problem": problem, "pressure": 0.1, **change}),
+        "",
+        until=(3,),
+        steps=("60", None),
+        longest_step=("1",),
+        after=(problem,),
+        options=(0.1,),
+    )
+    calls |= _each(
+        lambda **change: inflate(**{"problem": problem, "volume": 0.1, **change}),
+        "",
+        volume=("1", None),
+        stops=(0.05, ("0.05",)),
+        after=(problem,),
+    )
+    calls["work of a single solution"] = (lambda: work(solve(problem, 0.1)), "work: solutions")
+    return calls
+
+
 def kinds() -> tuple[Finding, ...]:
     """All of them; and what is as good as the kind asked for is taken."""
     from_lists = Problem(BOX, NEO_HOOKE, Supports(["x0"], {"y0": np.int64(1)}), ["x1"], [PULL])
@@ -188,6 +225,7 @@ def kinds() -> tuple[Finding, ...]:
         refused("laws", laws()),
         refused("loads and options", loads()),
         refused("meshes", meshes()),
+        refused("walks", walks()),
         true("lists and whole numbers of NumPy are taken", solve(from_lists).converged),
     )
 

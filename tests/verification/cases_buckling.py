@@ -60,8 +60,11 @@ def column() -> Outcome:
         Row(f"P / P_Euler, {label}", 1.0, loads * traced(pose(loads), first), 0.03, digits=2)
         for label, (pose, loads, first) in walks.items()
     ]
-    found = 2.0 * walked(on_mirrored_mesh(2.0))
-    rows.append(Row("P / P_Euler, mirrored mesh, walked by load", 1.0, found, 0.03, digits=2))
+    poses = {"mirrored mesh": on_mirrored_mesh, "mesh without symmetry": on_lopsided_mesh}
+    for label, pose in poses.items():
+        found = 3.0 * walked(pose(3.0))
+        label = f"P / P_Euler, {label}, walked by load"
+        rows.append(Row(label, 1.0, found, 0.03, digits=2))
     return Outcome(tuple(rows), mesh="480 tetrahedra each")
 
 

@@ -53,6 +53,12 @@ def assert_same_bits(one: Solution, other: Solution) -> None:
     assert one.newton_iterations == other.newton_iterations
 
 
+def test_a_checkpoint_goes_to_a_path_or_to_its_name(problem: Problem, tmp_path: Path) -> None:
+    checkpoint, name = interrupted(problem, 1), str(tmp_path / "walk.npz")
+    checkpoint.save(name)
+    assert Checkpoint.load_from(name).points == checkpoint.points
+
+
 @pytest.mark.parametrize("steps", [1, 2, 3])
 def test_a_resumed_run_ends_in_the_same_bits(
     problem: Problem, uninterrupted: Solution, steps: int, tmp_path: Path

@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 from inertia import needs_inertia
-from meshes import box_mesh, doubled_mesh
+from meshes import box_mesh, doubled_mesh, tube_mesh
 
 from solver import (
     Limit,
@@ -15,6 +15,7 @@ from solver import (
     Ogden,
     PathPoint,
     Problem,
+    RigidPlane,
     SolverOptions,
     Supports,
     Trace,
@@ -79,6 +80,39 @@ def test_a_walk_by_load_says_where_a_column_buckles() -> None:
     assert "stability is lost at" in solution.message
 
 
+@pytest.mark.parametrize(
+    ("loads", "linear_solver"),
+    [(3.0, "superlu"), (3.0, "auto"), pytest.param(8.0, "auto", marks=needs_inertia)],
+)
+def test_a_walk_that_bends_away_before_it_buckles_says_where(
+    loads: float, linear_solver: str
+) -> None:
+    solution = solve(lopsided(loads), options=SolverOptions(linear_solver=linear_solver))
+    assert not solution.converged and solution.stopped_by == "limit"
+    assert loads * (solution.limit or 0.0) == pytest.approx(1.0185, abs=5e-3)
+    assert solution.stable is not False and "stability is lost" in solution.message
+
+
+@needs_inertia
+def test_so_does_one_in_a_stage_that_begins_near_the_critical_load() -> None:
+    solution = solve(lopsided(3.0), after=solve(lopsided(0.8)))
+    assert solution.stopped_by == "limit"
+    assert 0.8 + 2.2 * (solution.limit or 0.0) == pytest.approx(1.0185, abs=5e-3)
+
+
+@needs_inertia
+def test_a_ring_under_pressure_from_outside_buckles_at_levys_load() -> None:
+    """p = 3 E I / ((1 - nu^2) R^3) in plane strain; the load is passed by 2 and by 50 times."""
+    mesh = tube_mesh(9.5, 10.5, 1.0, (1, 16, 1), np.pi)
+    symmetry = {"start": 1, "end": 1, "z0": 2, "z1": 2}
+    supports = Supports(symmetry=symmetry, nodes={(9.5, 0.0, 0.0): 0})
+    ring = Problem(mesh, NEO_HOOKE, supports, ("outside",))
+    for pressure in (0.003, 0.05):
+        solution = solve(ring, pressure)
+        assert solution.stopped_by == "limit"
+        assert solution.limit == pytest.approx(0.001, rel=0.015)
+
+
 def test_a_bracket_that_could_not_be_narrowed_is_told_as_one() -> None:
     before, behind = (PathPoint(0.1 * load, 0.0, 1, 0.0, 0.0, load) for load in (0.5, 0.8))
     text = Limit("bifurcation", behind, (before, behind)).describe
@@ -87,6 +121,19 @@ def test_a_bracket_that_could_not_be_narrowed_is_told_as_one() -> None:
         "buckles"
     )
     assert "between 50 % of the load and 80 % of the load" in text(0.0)
+
+
+@pytest.mark.parametrize("gap", [0.0, 0.1])
+def test_a_plane_that_moves_is_load_enough_also_before_it_touches(gap: float) -> None:
+    plane = RigidPlane("x1", 1e-4, (-1, 0, 0), (1 + gap, 0, 0), lambda load: (-0.4 * load, 0, 0))
+    mesh = box_mesh((2, 2, 2), (1.0, 1.0, 1.0))
+    path = trace(Problem(mesh, NEO_HOOKE, PLANES, contacts=(plane,)))
+    assert_monotonic(path)
+    assert path.message == "the asked load is reached."
+    end = mesh.surface_nodes("x1")
+    for point, state in zip(path.points, path.states, strict=True):
+        expected = min(1.0, 1 + gap - 0.4 * point.load)
+        assert 1 + state.displacement[end, 0] == pytest.approx(expected, abs=4e-4)
 
 
 def test_both_sides_of_a_limit_point_are_lower_and_near(sphere: Callable[..., Mesh]) -> None:

@@ -273,6 +273,29 @@ def test_a_volume_goes_on_from_a_stage_beyond_the_limit_of_the_pressure() -> Non
     assert on.load_steps < at_once.load_steps
 
 
+def test_a_goal_a_thousand_times_the_volume_is_reached() -> None:
+    """Ten times as large: its first step, a tenth, turns elements inside out."""
+    ball = Problem(sphere_mesh(10.0, 12.0, 1, 2), NEO_HOOKE, PLANES, ("inside",))
+    rest = cavity_volume(ball.mesh, np.zeros_like(ball.mesh.nodes), ("inside",))
+    solution = inflate(ball, 1000 * rest)
+    assert solution.converged and solution.refused_steps > 0
+    expected = sphere_pressure(NEO_HOOKE, 10.0, 12.0, 10.0)
+    assert solution.pressure == pytest.approx(expected, rel=3e-3)
+
+
+def test_the_volume_that_there_is_already_takes_no_step() -> None:
+    """Also where it is off by rounding."""
+    ball = Problem(sphere_mesh(10.0, 12.0, 1, 2), NEO_HOOKE, PLANES, ("inside",))
+    blown = inflate(ball, 1500.0)
+    for wanted in (1500.0, 1500.0 * (1 + 2e-16), blown.path[-1].volume):
+        again = inflate(ball, wanted, after=blown)
+        assert again.converged and again.load_steps == 0
+        assert again.pressure == blown.pressure
+    higher = inflate(ball, 1600.0, stops=(1500.0 * (1 + 2e-16),), after=blown)
+    assert higher.converged and len(higher.at_stops) == 1
+    assert higher.at_stops[0].pressure == blown.pressure
+
+
 def test_a_volume_goes_on_from_a_pressure_with_other_loads_applied_first() -> None:
     """Blown up, pulled outwards at that pressure, blown up further: as pulled first."""
     mesh = sphere_mesh(10.0, 12.0, 1, 3)
