@@ -165,6 +165,33 @@ def test_the_default_tolerance_settles_the_force(sphere: Meshes, travel: float) 
     assert forces[0] == pytest.approx(forces[1], rel=1e-3)
 
 
+@pytest.mark.parametrize("depth", [0.1, 0.01])
+@pytest.mark.parametrize("away", [0.0, 1.0, 10.0])
+def test_the_default_tolerance_settles_the_force_on_a_soft_body_too(
+    box: Meshes, depth: float, away: float
+) -> None:
+    """A bar bent by a plane: the clamp bears all of it, at pressures far below the modulus."""
+    slanted = RigidPlane(
+        "z1", depth, (-0.5, 0, -1), (10, 0, 1 + away), lambda load: (0, 0, -load * (3 + away))
+    )
+    problem = Problem(box((10, 2, 2), (10, 1, 1)), RUBBER, Supports(("x0",)), contacts=(slanted,))
+    solution = solve(problem)
+    assert solution.converged
+    pushed = contact_forces(solution)[0].force
+    assert reaction(solution, "x0").force == pytest.approx(-pushed, rel=5e-3, abs=1e-8)
+
+
+@pytest.mark.parametrize("away", [0.0, 1.0, 100.0, 1e4])
+def test_a_plane_may_come_from_far_away(box: Meshes, away: float) -> None:
+    """Steps before the touch move nothing, the one after it the body at once."""
+    plane = lid(1e-3, travel=0.3 + away, height=1.0 + away)
+    solution = pressed(box((1, 1, 1)), plane)
+    stretch = 1 + solution.displacement[:, 2].min()
+    assert stretch == pytest.approx(0.7, abs=2e-3)
+    force = contact_forces(solution)[0].force[2]
+    assert -force == pytest.approx(stretch**-2 - stretch, rel=1e-6)
+
+
 def test_a_turned_problem_has_the_turned_answer(box: Meshes) -> None:
     mesh, turn = box((2, 1, 1), (2, 1, 1)), Rotation.from_rotvec((0.7, -1.1, 0.4)).as_matrix()
     normal, point, travel = np.array([-3.0, 0, 2]), np.array([2.0, 0, 0]), np.array([-0.6, 0, 0])
