@@ -8,9 +8,10 @@ from numpy.typing import NDArray
 
 from solver.arrays import Integers, Reals
 from solver.compilation import njit
+from solver.input_types import check_instance
 from solver.mesh.elements import TETRAHEDRON_EDGES, quadratic_shapes
 from solver.mesh.mesh import Mesh
-from solver.results.solution import Solution
+from solver.results.solution import Solution, check_solution
 
 CANDIDATES = 24
 """Elements with the nearest centres, in which a point is searched."""
@@ -35,7 +36,12 @@ def transfer(solution: Solution, finer_mesh: Mesh) -> tuple[Reals, Reals]:
         Displacement at its nodes and hydrostatic pressure at its vertices.
 
         *Shape:* (n, 3) in mm, (v,) in MPa.
+
+    Raises:
+        SolverError: no solution or no mesh.
     """
+    check_solution(solution)
+    check_instance("transfer: finer_mesh", finer_mesh, Mesh)
     mesh = solution.problem.mesh
     element, barycentric = locate(mesh, finer_mesh.nodes)
     shapes = quadratic_shapes(barycentric, TETRAHEDRON_EDGES)

@@ -18,8 +18,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from solver.arrays import Reals
+from solver.input_types import check_instance
 from solver.mesh.mesh import Mesh
 from solver.problem.problem import SlenderAxis
+from solver.problem.vectors import check_displacement
 
 Motion = Callable[[Reals, Reals], Reals]
 """(displacement, increment) -> displacement after the increment, all (n, 3)."""
@@ -119,7 +121,13 @@ def rotation(mesh: Mesh, displacement: Reals, surface: str = "tip") -> float:
 
     Returns:
         Degrees, positive towards -z, past 180 and 360; NaN if the mesh has no such surface.
+
+    Raises:
+        SolverError: displacements that are not of the mesh's nodes.
     """
+    check_instance("rotation: mesh", mesh, Mesh)
+    check_instance("rotation: surface", surface, str)
+    check_displacement("rotation: displacement", displacement, len(mesh.nodes))
     if surface not in mesh.surfaces:
         return float("nan")
     slices = np.array_split(np.argsort(mesh.nodes[:, 0], kind="stable"), SLICES)

@@ -16,7 +16,8 @@ import numpy as np
 
 from solver.assembly.state import State
 from solver.errors import SolverError
-from solver.input_types import check_number
+from solver.input_types import check_function, check_number, shown
+from solver.nonlinear.call_checks import check_call
 from solver.nonlinear.events import Listener
 from solver.nonlinear.loading import Loading
 from solver.nonlinear.newton import Newton
@@ -82,6 +83,10 @@ def trace(
     Raises:
         SolverError: a pressure that is not finite, no steps, steps of no length, or no load.
     """
+    check_call(problem, options, listener, after)
+    check_function("trace: until", until, "a PathPoint")
+    check_number("trace: steps", steps)
+    check_number("trace: longest_step", longest_step)
     check_number("pressure", pressure)
     if not np.isfinite(pressure):
         raise SolverError(f"pressure must be a finite number of MPa, got {pressure}.")
@@ -131,9 +136,16 @@ def _reason_to_end(
     """Why a traced path ends at its point ``number``; empty if it continues."""
     if arc.equilibrium.load >= 1:
         return "the asked load is reached."
-    if until is not None and until(point):
+    if until is not None and _holds(until(point)):
         return "it ends where it was asked to."
     return f"it ends after {steps} steps." if number >= steps else ""
+
+
+def _holds(answer: object) -> bool:
+    """Whether a condition holds; ``SolverError`` for an answer that is no truth value."""
+    if answer is not None and not isinstance(answer, bool | np.bool_):
+        raise SolverError(f"trace: until must return True or False, got {shown(answer)}.")
+    return bool(answer)
 
 
 def limit_ahead(

@@ -10,6 +10,8 @@ import time
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
+from solver.input_types import check_number, numbers
+from solver.nonlinear.call_checks import check_call
 from solver.nonlinear.checkpoint import Effort
 from solver.nonlinear.events import Listener
 from solver.nonlinear.loading import Loading
@@ -78,7 +80,9 @@ def inflate(
             wrong sign, or not in order between the one at no pressure and ``volume``.
     """
     start = time.perf_counter()
-    volumes = tuple(float(each) for each in (*stops, volume))
+    check_call(problem, options, listener, after)
+    check_number("inflate: volume", volume)
+    volumes = (*numbers("inflate: stops", stops), float(volume))
     check_volumes(volumes)
     check_closed(problem)
     options = options or SolverOptions()

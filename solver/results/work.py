@@ -14,6 +14,7 @@ from solver.assembly.contact import contact_pairs
 from solver.assembly.state import State
 from solver.assembly.swept_volume import swept_volume
 from solver.errors import SolverError
+from solver.input_types import members_of
 from solver.problem.contacts import RigidPlane
 from solver.problem.loads import couple, nodal_forces
 from solver.problem.problem import Problem
@@ -60,6 +61,8 @@ def work(solutions: Sequence[Solution]) -> Work:
     Raises:
         SolverError: no solution, or solutions with different meshes or numbers of contacts.
     """
+    given = members_of("work: solutions", solutions, (Solution,))
+    solutions = [each for each in given if isinstance(each, Solution)]
     if not solutions:
         raise SolverError("work: needs at least one solution.")
     first = solutions[0].problem

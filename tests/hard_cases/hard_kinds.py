@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 from hard_bodies import CLAMPED, NEO_HOOKE
+from hard_calls import ARGUMENTS
 from hard_case import Finding, HardCase, refused, true
 from meshes import box_mesh
 
@@ -213,6 +214,7 @@ CASES = (
         "refused with the parameter's name and what belongs there",
         kinds,
     ),
+    ARGUMENTS,
     HardCase(
         "Ogden's constants as he wrote them",
         "another definition of μ: a material that is off by α/2, or a refusal without a hint",
