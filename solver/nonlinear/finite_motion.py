@@ -16,12 +16,15 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
-from solver.arrays import Integers, Reals
+from solver.arrays import Reals
 from solver.input_types import check_instance
 from solver.mesh.mesh import Mesh
 from solver.problem.problem import SlenderAxis
 from solver.problem.vectors import check_displacement
+
+Indices = NDArray[np.intp]
 
 Motion = Callable[[Reals, Reals], Reals]
 """(displacement, increment) -> displacement after the increment, all (n, 3)."""
@@ -130,9 +133,9 @@ def rotation(mesh: Mesh, displacement: Reals, surface: str = "tip") -> float:
     check_instance("rotation: mesh", mesh, Mesh)
     check_instance("rotation: surface", surface, str)
     check_displacement("rotation: displacement", displacement, len(mesh.nodes))
-    own = mesh.surface_nodes(surface) if surface in mesh.surfaces else ()
-    if not len(own):
+    if surface not in mesh.surfaces or not len(mesh.surfaces[surface]):
         return float("nan")
+    own = mesh.surface_nodes(surface).astype(np.intp)
     parts = [*_slices_before(mesh, displacement, own), own]
     angles = [_best_fit_rotation(mesh.nodes[part], displacement[part]) for part in parts]
     return float(np.degrees(np.unwrap(angles)[-1]))
@@ -147,7 +150,7 @@ AT_REST = 0.5
 """Share of the motion of the lower end below which the upper end is the one that is held."""
 
 
-def _slices_before(mesh: Mesh, displacement: Reals, surface: Integers) -> list[Integers]:
+def _slices_before(mesh: Mesh, displacement: Reals, surface: Indices) -> list[Indices]:
     """Nodes between the held end of a body and the nodes of a surface, slice by slice."""
     extents = np.ptp(mesh.nodes, axis=0)
     axis = 0 if 2 * extents[0] >= extents.max() else int(extents.argmax())
