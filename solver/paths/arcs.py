@@ -82,7 +82,7 @@ class Arcs:
         measured = np.ones(numbering.size, bool)
         measured[numbering.pressure] = False
         longest = longest_step * newton.problem.mesh.size
-        led = bool(newton.problem.supports.prescribed)
+        led = bool(newton.problem.supports.prescribed) or newton.assembly.contacts.move
         return Arcs(newton, measured, longest if led else 0.0, longest)
 
     def start(self, state: State, load: float, first_step: float) -> Arc:

@@ -1,4 +1,6 @@
-"""Kinks of a path: loads at which a support's prescribed motion stops, starts or turns at once.
+"""Kinks of a path: loads at which a prescribed motion stops, starts or turns at once.
+
+Or at which a plane that is led comes to the body.
 
 The path turns there by any angle within a step of no length, and is no longer or shorter for it.
 What is continuous is the load: it goes on as before, unless the stability of the body changes.
@@ -16,7 +18,7 @@ HALVINGS = 10
 
 def over_kink(arcs: Arcs, arc: Arc, length: float) -> Arc | None:
     """The arc next behind a kink, if there is one within a step of a length (mm) from ``arc``."""
-    if not arcs.newton.problem.supports.prescribed:
+    if not arcs.whole_load:
         return None
     before, behind = arc, arcs.onward(arc, arc.load + arc.slope * length)
     if not _turned(arcs, before, behind):

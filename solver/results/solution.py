@@ -172,5 +172,5 @@ def cavity_volume(mesh: Mesh, displacement: Reals, surfaces: tuple[str, ...]) ->
     """
     check_instance("cavity_volume: mesh", mesh, Mesh)
     check_displacement("cavity_volume: displacement", displacement, len(mesh.nodes))
-    surfaces = names("cavity_volume: surfaces", surfaces)
-    return enclosed_volume(mesh, displacement, surfaces)
+    each_once = tuple(dict.fromkeys(names("cavity_volume: surfaces", surfaces)))
+    return enclosed_volume(mesh, displacement, each_once)

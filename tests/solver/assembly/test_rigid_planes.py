@@ -273,6 +273,21 @@ def test_arc_length_follows_a_plane_that_moves(box: Meshes) -> None:
     assert state.displacement[:, 2].min() == pytest.approx(-0.3 * last, abs=0.02)
 
 
+def test_arc_length_follows_a_plane_that_comes_to_the_body(box: Meshes) -> None:
+    """Nothing moves before the touch at a quarter of the load, which is a kink and no limit."""
+    problem = Problem(box((2, 2, 2)), RUBBER, THIRDS, contacts=(lid(0.01, travel=0.4),))
+    walked = trace(problem, until=lambda point: point.load >= 1)
+    assert walked.points[-1].load >= 1 and not walked.limits
+    touched = [
+        (point.load, state.displacement[:, 2].min())
+        for point, state in zip(walked.points, walked.states, strict=True)
+        if point.load > 0.26
+    ]
+    assert len(touched) >= 3
+    for load, moved in touched:
+        assert moved == pytest.approx(0.1 - 0.4 * load, abs=0.03)
+
+
 @pytest.mark.parametrize(
     ("change", "words"),
     [
