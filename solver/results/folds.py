@@ -42,7 +42,7 @@ class Folds:
             return ""
         place = ", ".join(f"{x:.4g}" for x in self.positions[0])
         return (
-            f"{count} element{'s are' if count > 1 else ' is'} folded (J < 0 in a corner), "
+            f"{count} element{'s are' if count > 1 else ' is'} folded (J < 0 in part of it), "
             f"{'the first ' if count > 1 else ''}at ({place}) mm of the undeformed body: "
             "stresses near there are not to be trusted."
         )
