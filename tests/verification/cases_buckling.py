@@ -138,6 +138,7 @@ CASES = (
         "where the branches are parted. The clamp, which holds the section, makes it 1 % stiffer.",
         "P = π² E I / (4 L²), E = 3 μ. Status: thin-beam limit.",
         column,
+        slow=True,
     ),
     Case(
         "A slab between frictionless plates bends",

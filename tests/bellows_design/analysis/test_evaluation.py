@@ -77,6 +77,7 @@ def test_grid_sequencing_saves_the_load_path_on_the_finer_mesh(evaluation: Evalu
     assert len(fine.problem.mesh.tets) > len(coarse.problem.mesh.tets)
 
 
+@pytest.mark.slow
 def test_cavity_grows_under_pressure_and_bubbles_fan_out(evaluation: Evaluation) -> None:
     unloaded = evaluate(short("load.pressure=0.001"))
     assert evaluation.cavity_volume_mm3 > 1.2 * unloaded.cavity_volume_mm3

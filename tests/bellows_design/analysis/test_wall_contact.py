@@ -260,6 +260,7 @@ ONE_BUBBLE = [
 ]  # fmt: skip
 
 
+@pytest.mark.slow
 def test_a_half_under_vacuum_ends_at_the_first_touch_of_its_walls() -> None:
     """A single bubble has no neighbour; beyond the touch its walls would pass each other."""
     design = with_overrides(load_design("prototype_1"), [*ONE_BUBBLE, "load.pressure=-0.09"])

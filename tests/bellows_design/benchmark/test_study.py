@@ -171,6 +171,7 @@ def test_a_real_study_counts_what_each_mesh_takes(monkeypatch: pytest.MonkeyPatc
     assert first.estimate == ErrorEstimate() and second.estimate.bending_angle_percent
 
 
+@pytest.mark.slow
 def test_the_study_goes_the_way_of_an_evaluation() -> None:
     """What is timed is what the product does."""
     evaluation = evaluate(ONE_BUBBLE)
