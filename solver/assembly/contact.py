@@ -227,6 +227,11 @@ class Contacts:
         share = min(1.0, RESOLUTION * tolerance)
         return max(share * contact.penetration, ROUNDING * self._size)
 
+    def against_rigid(self, state: State, load: float) -> bool:
+        """Whether the body touches a rigid plane."""
+        rigid = (pair for pair in self._pairs if isinstance(pair.contact, RigidPlane))
+        return any(pair.touches(state, load) for pair in rigid)
+
     def settled(self, before: State, after: State, load: float, tolerance: float) -> bool:
         """Whether a last correction hardly changes what rigid planes exert.
 

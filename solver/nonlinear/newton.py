@@ -263,12 +263,15 @@ class Newton:
         """Accept a converged state only if it is stable and no element is inverted.
 
         Stable means that the tangent has one negative pivot for each pressure unknown and no
-        more: the equilibrium is a minimum of energy under the constraint of incompressibility.
+        more: the equilibrium is a minimum of energy under the constraint of incompressibility. The
+        last tangent tells, of a state nearby; at rigid planes other points may touch there.
         """
-        equilibrium = self.evaluate(state, load, tangent=self.system.stable is False)
+        pressed = self.assembly.contacts.against_rigid(state, self.loading.share(load))
+        doubtful = self.system.stable is False or pressed
+        equilibrium = self.evaluate(state, load, tangent=doubtful)
         if not equilibrium.admissible:
             return Attempt(guess, iterations, "an element would turn inside out")
-        if self.system.stable is False and not self._stable_at(equilibrium):
+        if doubtful and not self._stable_at(equilibrium):
             return Attempt(guess, iterations, "the equilibrium would be unstable")
         applied = float(np.linalg.norm(load * self.rate(state, load, equilibrium))) or 1.0
         imbalance = float(np.linalg.norm(equilibrium.residual)) / applied

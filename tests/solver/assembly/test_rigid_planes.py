@@ -273,6 +273,23 @@ def test_arc_length_follows_a_plane_that_moves(box: Meshes) -> None:
     assert state.displacement[:, 2].min() == pytest.approx(-0.3 * last, abs=0.02)
 
 
+@pytest.mark.parametrize("depth", [1e-4, 1e-8])
+def test_a_block_between_plates_is_lost_where_one_with_led_ends_is(
+    box: Meshes, depth: float
+) -> None:
+    """However stiff the contact, the whole load is beyond: there the block would be unstable."""
+
+    def led(positions: Array, load: float) -> Array:
+        return np.broadcast_to([np.nan, np.nan, -0.5 * load], positions.shape)
+
+    mesh = box((3, 3, 3))
+    supports = replace(THIRDS, prescribed={"z1": led})
+    loads = [solve(Problem(mesh, RUBBER, supports)).load]
+    loads += [solve(Problem(mesh, RUBBER, THIRDS, contacts=(lid(depth, 0.5, 1.0),))).load]
+    assert loads[0] < 0.995
+    assert loads[1] == pytest.approx(loads[0], abs=5e-3)
+
+
 def test_arc_length_follows_a_plane_that_comes_to_the_body(box: Meshes) -> None:
     """Nothing moves before the touch at a quarter of the load, which is a kink and no limit."""
     problem = Problem(box((2, 2, 2)), RUBBER, THIRDS, contacts=(lid(0.01, travel=0.4),))
