@@ -31,9 +31,9 @@ if TYPE_CHECKING:
     from solver.problem.supports import Supports
     from solver.results.contacts import ContactForce, contact_forces
     from solver.results.energy import Potential, potential, strain_energy
-    from solver.results.folds import Folds, folded_elements
+    from solver.results.folds import Folds
     from solver.results.reactions import Reaction, reaction
-    from solver.results.solution import PathPoint, Solution, cavity_volume
+    from solver.results.solution import PathPoint, Solution, cavity_volume, folded_elements
     from solver.results.stress import Peak, nodal_cauchy, nodal_von_mises, peak_von_mises
     from solver.results.vtu import write_vtu
     from solver.results.work import Work, work
@@ -104,10 +104,10 @@ __getattr__ = imported_when_asked_for(
         "problem.springs": ("FoundationSpring", "NodeSpring"),
         "results.contacts": ("ContactForce", "contact_forces"),
         "results.energy": ("Potential", "potential", "strain_energy"),
-        "results.folds": ("Folds", "folded_elements"),
+        "results.folds": ("Folds",),
         "results.reactions": ("Reaction", "reaction"),
         "problem.supports": ("Supports",),
-        "results.solution": ("PathPoint", "Solution", "cavity_volume"),
+        "results.solution": ("PathPoint", "Solution", "cavity_volume", "folded_elements"),
         "results.vtu": ("write_vtu",),
         "results.work": ("Work", "work"),
         "results.stress": ("Peak", "nodal_cauchy", "nodal_von_mises", "peak_von_mises"),

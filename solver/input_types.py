@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from numbers import Real
+from numbers import Integral, Real
+from pathlib import Path
 from typing import TypeVar
 
 from solver.errors import SolverError
@@ -51,10 +52,17 @@ def check_instance(what: str, given: object, kind: type, optional: bool = False)
         raise SolverError(f"{what} must be {_alternatives((kind,))}, got {shown(given)}.")
 
 
-def check_function(what: str, given: object) -> None:
-    """Raise ``SolverError`` unless ``given`` can be called, or is None."""
+def check_function(what: str, given: object, of: str) -> None:
+    """Raise ``SolverError`` unless ``given`` can be called or is None; ``of``: its argument."""
     if given is not None and not callable(given):
-        raise SolverError(f"{what} must be a function, got {shown(given)}.")
+        raise SolverError(f"{what} must be a function of {of}, got {shown(given)}.")
+
+
+def file_path(what: str, given: object) -> Path:
+    """A path, or text, as a path; ``SolverError`` for anything else."""
+    if not isinstance(given, str | Path):
+        raise SolverError(f"{what} must be the path of a file, got {shown(given)}.")
+    return Path(given)
 
 
 def check_number(what: str, given: object) -> None:
@@ -71,6 +79,11 @@ def numbers(what: str, given: object) -> tuple[float, ...]:
     for member in members:
         check_number(f"{what}: each", member)
     return tuple(float(member) for member in members)
+
+
+def is_axis(given: object) -> bool:
+    """Whether it is 0, 1 or 2, for x, y or z; no truth value, which would select by itself."""
+    return isinstance(given, Integral) and not isinstance(given, bool) and given in (0, 1, 2)
 
 
 def mapping(what: str, given: Mapping[Key, Value], contents: str) -> dict[Key, Value]:

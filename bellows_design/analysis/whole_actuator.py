@@ -114,12 +114,13 @@ def folded_elements(computation: Computation) -> FoldedElements:
 
     That is the finest, or the ends' where these are stressed more.
     """
-    from solver.results.folds import folded_around, folded_elements
+    from solver import folded_elements as folds_in
+    from solver.results.folds import folded_around
 
     solution, peak, place = computation.finest, computation.peaks[-1], position
     if ends_factor(computation) != 1.0 and computation.ends and computation.ends_peak:
         solution, peak, place = computation.ends, computation.ends_peak, _place_at_ends
-    folds = folded_elements(solution)
+    folds = folds_in(solution)
     if not len(folds.elements):
         return NO_FOLDS
     distances = np.linalg.norm(folds.positions - np.array(peak.position), axis=1)

@@ -8,9 +8,11 @@ from numpy.typing import NDArray
 
 from solver.arrays import Integers, Reals
 from solver.compilation import njit
+from solver.errors import SolverError
+from solver.input_types import check_instance
 from solver.mesh.elements import TETRAHEDRON_EDGES, quadratic_shapes
 from solver.mesh.mesh import Mesh
-from solver.results.solution import Solution
+from solver.results.solution import Solution, check_solution
 
 CANDIDATES = 24
 """Elements with the nearest centres, in which a point is searched."""
@@ -35,7 +37,14 @@ def transfer(solution: Solution, finer_mesh: Mesh) -> tuple[Reals, Reals]:
         Displacement at its nodes and hydrostatic pressure at its vertices.
 
         *Shape:* (n, 3) in mm, (v,) in MPa.
+
+    Raises:
+        SolverError: no solution, no mesh, or meshes of different bodies: of which the extents
+            differ by more than an edge.
     """
+    check_solution(solution)
+    check_instance("transfer: finer_mesh", finer_mesh, Mesh)
+    _check_same_body(solution.problem.mesh, finer_mesh)
     mesh = solution.problem.mesh
     element, barycentric = locate(mesh, finer_mesh.nodes)
     shapes = quadratic_shapes(barycentric, TETRAHEDRON_EDGES)
@@ -43,6 +52,17 @@ def transfer(solution: Solution, finer_mesh: Mesh) -> tuple[Reals, Reals]:
     corners = solution.hydrostatic_pressure[mesh.tet_vertices[element]]
     pressure = np.einsum("na,na->n", barycentric, corners)
     return displacement, pressure[finer_mesh.vertices]
+
+
+def _check_same_body(mesh: Mesh, other: Mesh) -> None:
+    """Raise ``SolverError`` if the extents of two meshes differ by more than a mean edge."""
+    ours, theirs = (each.nodes[each.vertices] for each in (mesh, other))
+    ends = (theirs.min(axis=0) - ours.min(axis=0), theirs.max(axis=0) - ours.max(axis=0))
+    apart = float(np.abs(ends).max())
+    if apart > mesh.edge:
+        raise SolverError(
+            f"transfer: both meshes must be of one body; their extents differ by {apart:.4g} mm."
+        )
 
 
 def locate(mesh: Mesh, points: Reals) -> tuple[NDArray[np.int64], Reals]:

@@ -124,6 +124,13 @@ class ContactPair:
         pressures: Reals = contact_pressures(self.face, self.gaps(state, load))
         return pressures
 
+    def change(self, before: State, after: State, load: float) -> float:
+        """Change of the pressures between two states, relative to those of the latter."""
+        pressures = self.pressures(after, load)
+        changes = np.abs(pressures - self.pressures(before, load))
+        change = float((self.face.areas * changes).sum())
+        return change / float((self.face.areas * pressures).sum()) if change else 0.0
+
     def energy(self, state: State, load: float) -> float:
         """Energy of the penetration, N mm."""
         return float(face_energy(self.face, self.plane(state, load), state.displacement))
@@ -181,6 +188,12 @@ class Contacts:
         """Whether rigid planes move with the load."""
         return planes_move([pair.contact for pair in self._pairs])
 
+    def way(self, before: float, after: float) -> float:
+        """Longest way of a rigid plane between two fractions of the load, mm."""
+        planes = (each.contact for each in self._pairs if isinstance(each.contact, RigidPlane))
+        ways = (plane.displacement(after) - plane.displacement(before) for plane in planes)
+        return max((float(np.linalg.norm(way)) for way in ways), default=0.0)
+
     def rate(self, state: State, load: float) -> Reals:
         """Derivative (m,) of the contact forces in the residual by the load at rest, N.
 
@@ -213,6 +226,25 @@ class Contacts:
             return contact.penetration
         share = min(1.0, RESOLUTION * tolerance)
         return max(share * contact.penetration, ROUNDING * self._size)
+
+    def against_rigid(self, state: State, load: float) -> bool:
+        """Whether the body touches a rigid plane."""
+        rigid = (pair for pair in self._pairs if isinstance(pair.contact, RigidPlane))
+        return any(pair.touches(state, load) for pair in rigid)
+
+    def settled(self, before: State, after: State, load: float, tolerance: float) -> bool:
+        """Whether a last correction hardly changes what rigid planes exert.
+
+        It may be small beside the penetration and yet as large as the force on a soft body.
+        """
+        if np.abs(after.displacement - before.displacement).max() <= ROUNDING * self._size:
+            return True
+        share = min(1.0, RESOLUTION * tolerance)
+        return all(
+            pair.change(before, after, load) <= share
+            for pair in self._pairs
+            if isinstance(pair.contact, RigidPlane)
+        )
 
     def add(
         self, state: State, tangent: bool, residual: Reals, values: Reals, load: float = 0.0

@@ -6,7 +6,7 @@ by shape functions, so the six-point rule integrates everything here exactly.
 The derivative of N_a n da is not symmetric on one triangle. Summed over a surface whose rim is
 either held or slides in a symmetry plane, the skew parts cancel (they are rim integrals: the
 force is minus the gradient of P times the enclosed volume), so only the symmetric part is
-assembled. With a free rim the force is still exact, but Newton's method converges linearly.
+assembled. Where a rim is free, the whole derivative is (``solver.assembly.free_rim``).
 
 Where the rim slides in a moving plane, the pressure also acts on the plane through the opening.
 There the enclosed volume is differentiated directly, written as minus the integral of y n_y: what
@@ -46,4 +46,4 @@ def enclosed_volume(mesh: Mesh, displacement: Reals, surfaces: tuple[str, ...]) 
     across = np.einsum("qa,ta->tq", rule.quadratic, x[:, :, 1])
     tangents = np.einsum("qad,tai->dtqi", rule.gradients, x[:, :, [0, 2]])
     normal = tangents[0, ..., 1] * tangents[1, ..., 0] - tangents[0, ..., 0] * tangents[1, ..., 1]
-    return float(-np.einsum("q,tq,tq->", rule.weights, across, normal))
+    return 0.0 - float(np.einsum("q,tq,tq->", rule.weights, across, normal))

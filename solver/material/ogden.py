@@ -23,7 +23,7 @@ import numpy as np
 
 from solver.arrays import Reals
 from solver.errors import SolverError
-from solver.input_types import numbers
+from solver.input_types import check_number, numbers
 from solver.material.constants import Constants
 from solver.material.law import Hyperelastic, Volumetric
 from solver.material.laws import number_of
@@ -72,11 +72,14 @@ class Ogden(Hyperelastic):
     @classmethod
     def mooney_rivlin(cls, c10: float, c01: float, bulk_modulus: float = math.inf) -> Self:
         """W = c10 (I1 - 3) + c01 (I2 - 3), both positive, MPa."""
+        for name, constant in (("c10", c10), ("c01", c01)):
+            check_number(f"Ogden: {name}", constant)
         return cls((2 * c10, 2 * c01), (2.0, -2.0), bulk_modulus)
 
     @classmethod
     def yeoh(cls, c10: float, *higher: float, bulk_modulus: float = math.inf) -> Self:
         """W = c10 (I1 - 3) + c20 (I1 - 3)^2 + ..., MPa; ``higher`` = c20, c30, ..."""
+        check_number("Ogden: c10", c10)
         return cls((2 * c10,), (2.0,), bulk_modulus, higher)
 
     def __post_init__(self) -> None:

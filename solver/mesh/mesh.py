@@ -109,6 +109,8 @@ def _numbers(name: str, values: ArrayLike, dtype: DTypeLike) -> NDArray[Any]:
     """Values as an array; ``SolverError`` if they are no numbers, or no whole ones of nodes."""
     try:
         given = np.asarray(values)
+        if given.dtype.kind == "c":
+            raise ValueError
         with np.errstate(invalid="ignore"):  # NaN is no whole number, which is found below
             array = np.ascontiguousarray(given, dtype=dtype)
         if given.dtype.kind == "f" and array.dtype.kind == "i" and (array != given).any():

@@ -13,6 +13,7 @@ import numpy as np
 from solver.arrays import Reals
 from solver.assembly.state import State
 from solver.errors import SolverError
+from solver.input_types import file_path
 from solver.results.solution import PathPoint
 
 
@@ -46,9 +47,9 @@ class Checkpoint:
     points: tuple[PathPoint, ...]
     effort: tuple[int, int, int, int]
 
-    def save(self, path: str | Path) -> None:
+    def save(self, path: Path | str) -> None:
         """Write to ``path``, completely or not at all."""
-        path = Path(path)
+        path = file_path("checkpoint: path", path)
         temporary = path.with_name(f".{path.name}.{os.getpid()}")
         try:
             with temporary.open("wb") as file:
@@ -58,8 +59,9 @@ class Checkpoint:
             temporary.unlink(missing_ok=True)
 
     @staticmethod
-    def load_from(path: str | Path) -> Checkpoint:
+    def load_from(path: Path | str) -> Checkpoint:
         """Read what ``save`` wrote. Raises ``SolverError`` if the file holds anything else."""
+        path = file_path("checkpoint: path", path)
         try:
             with np.load(path, allow_pickle=False) as file:
                 return _checkpoint({name: file[name] for name in file.files})

@@ -16,10 +16,15 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from solver.arrays import Reals
+from solver.input_types import check_instance
 from solver.mesh.mesh import Mesh
 from solver.problem.problem import SlenderAxis
+from solver.problem.vectors import check_displacement
+
+Indices = NDArray[np.intp]
 
 Motion = Callable[[Reals, Reals], Reals]
 """(displacement, increment) -> displacement after the increment, all (n, 3)."""
@@ -105,30 +110,58 @@ def rotation(mesh: Mesh, displacement: Reals, surface: str = "tip") -> float:
     """Rotation of a surface about y by best fit, whole turns included.
 
     The in-plane rotation of its nodes of least squares (Procrustes). Whole turns are counted along
-    the body, whose neighbouring slices of nodes rotate little against each other, from the smallest
-    x to the largest, where the surface lies. So the result is a function of the state alone. Where
-    nodes are turned about another axis, as in torsion, their plane says nothing: there the rotation
-    about y that is nearest to theirs in space counts.
+    the body, whose neighbouring slices of nodes rotate little against each other, up to the surface
+    from the end that has moved less. So the result is a function of the state alone. Where nodes
+    are turned about another axis, as in torsion, their plane says nothing: there the rotation about
+    y that is nearest to theirs in space counts.
 
     Args:
-        mesh: the undeformed body.
+        mesh: the undeformed body; slices are normal to x, or to the axis along which it is more
+            than twice as long.
         displacement: of its nodes.
 
             *Shape:* (n, 3) in mm.
         surface: name of the surface.
 
     Returns:
-        Degrees, positive towards -z, past 180 and 360; NaN if the mesh has no such surface.
+        Degrees, positive towards -z, past 180 and 360; NaN if the mesh has no such surface, or no
+        triangles of it.
+
+    Raises:
+        SolverError: displacements that are not of the mesh's nodes.
     """
-    if surface not in mesh.surfaces:
+    check_instance("rotation: mesh", mesh, Mesh)
+    check_instance("rotation: surface", surface, str)
+    check_displacement("rotation: displacement", displacement, len(mesh.nodes))
+    if surface not in mesh.surfaces or not len(mesh.surfaces[surface]):
         return float("nan")
-    slices = np.array_split(np.argsort(mesh.nodes[:, 0], kind="stable"), SLICES)
-    parts = [part for part in slices if len(part) > 3] + [mesh.surface_nodes(surface)]
+    own = mesh.surface_nodes(surface).astype(np.intp)
+    parts = [*_slices_before(mesh, displacement, own), own]
     angles = [_best_fit_rotation(mesh.nodes[part], displacement[part]) for part in parts]
     return float(np.degrees(np.unwrap(angles)[-1]))
 
 
 SLICES = 32
+
+LEAST_NODES = 4
+"""Of a slice."""
+
+AT_REST = 0.5
+"""Share of the motion of the lower end below which the upper end is the one that is held."""
+
+
+def _slices_before(mesh: Mesh, displacement: Reals, surface: Indices) -> list[Indices]:
+    """Nodes between the held end of a body and the nodes of a surface, slice by slice."""
+    extents = np.ptp(mesh.nodes, axis=0)
+    axis = 0 if 2 * extents[0] >= extents.max() else int(extents.argmax())
+    places = mesh.nodes[:, axis]
+    count = max(1, min(SLICES, len(places) // LEAST_NODES))
+    slices = np.array_split(np.argsort(places, kind="stable"), count)
+    lower, upper = (np.linalg.norm(displacement[end]) for end in (slices[0], slices[-1]))
+    if upper < AT_REST * lower:
+        slices, places = slices[::-1], -places
+    here = places[surface].mean()
+    return [part for part in slices if places[part].mean() < here]
 
 
 ABOUT_Y = 0.5

@@ -180,8 +180,8 @@ class Newton:
         Once corrections decrease fast, the tangent is that of the state itself and its
         factorization is reused; or, if the path continues ``onward``, the iterations end with a
         small correction by such a tangent. With contact the last correction must not exceed the
-        contacts' ``depth``, and twice as many iterations are allowed, for the set of points in
-        contact to converge.
+        contacts' ``depth`` nor change much what rigid planes exert, and twice as many iterations
+        are allowed, for the set of points in contact to converge.
         """
         state, previous = guess, 0.0
         reuse = own = touched = False
@@ -200,6 +200,8 @@ class Newton:
             touched |= bool(np.isfinite(depth))
             small = found.size <= min(tolerance * self.problem.mesh.size, depth)
             small &= found.pressure_size <= pressure_bound(tolerance)
+            if small and np.isfinite(depth):
+                small = self.assembly.contacts.settled(found.state, found.moved, share, tolerance)
             distance = self.distance(found)
             fast = distance < self.options.reuse * previous
             if small and (own or not onward):
@@ -261,12 +263,15 @@ class Newton:
         """Accept a converged state only if it is stable and no element is inverted.
 
         Stable means that the tangent has one negative pivot for each pressure unknown and no
-        more: the equilibrium is a minimum of energy under the constraint of incompressibility.
+        more: the equilibrium is a minimum of energy under the constraint of incompressibility. The
+        last tangent tells, of a state nearby; at rigid planes other points may touch there.
         """
-        equilibrium = self.evaluate(state, load, tangent=self.system.stable is False)
+        pressed = self.assembly.contacts.against_rigid(state, self.loading.share(load))
+        doubtful = self.system.stable is False or pressed
+        equilibrium = self.evaluate(state, load, tangent=doubtful)
         if not equilibrium.admissible:
             return Attempt(guess, iterations, "an element would turn inside out")
-        if self.system.stable is False and not self._stable_at(equilibrium):
+        if doubtful and not self._stable_at(equilibrium):
             return Attempt(guess, iterations, "the equilibrium would be unstable")
         applied = float(np.linalg.norm(load * self.rate(state, load, equilibrium))) or 1.0
         imbalance = float(np.linalg.norm(equilibrium.residual)) / applied
@@ -362,6 +367,11 @@ class Newton:
             return moved
         stress = self.assembly.extrapolated_stress(state, increment)
         return replace(moved, geometric_stress=stress)
+
+    def led_by_planes(self, load: float, target: float) -> float:
+        """Longest way of a rigid plane between two fractions of the load, mm."""
+        share = self.loading.share
+        return self.assembly.contacts.way(share(load), share(target))
 
     def point(self, state: State, load: float, iterations: int, stable: bool | None) -> PathPoint:
         """Describe an equilibrium."""

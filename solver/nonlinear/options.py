@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from solver.errors import SolverError
-from solver.input_types import check_number
+from solver.input_types import check_instance, check_number
 
 FIRST_STEP = 0.1
 """Default, as a fraction of the load."""
@@ -52,6 +52,7 @@ class SolverOptions:
     seconds: float | None = None
 
     def __post_init__(self) -> None:
+        check_instance("solver: linear_solver", self.linear_solver, str)
         for name, low, high in OPTION_BOUNDS:
             value = getattr(self, name)
             if name in MAY_BE_MISSING and value is None:

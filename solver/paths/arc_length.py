@@ -16,8 +16,8 @@ import numpy as np
 
 from solver.assembly.state import State
 from solver.errors import SolverError
-from solver.input_types import check_function, check_number
-from solver.nonlinear.arguments import check_arguments
+from solver.input_types import check_function, check_number, shown
+from solver.nonlinear.call_checks import check_call
 from solver.nonlinear.events import Listener
 from solver.nonlinear.loading import Loading
 from solver.nonlinear.newton import Newton
@@ -86,10 +86,11 @@ def trace(
     Raises:
         SolverError: a pressure that is not finite, no steps, steps of no length, or no load.
     """
-    check_arguments(problem, options, listener, after)
-    check_function("until", until)
-    for name, given in (("pressure", pressure), ("longest_step", longest_step), ("steps", steps)):
-        check_number(name if name == "pressure" else f"trace: {name}", given)
+    check_call(problem, options, listener, after)
+    check_function("trace: until", until, "a PathPoint")
+    check_number("trace: steps", steps)
+    check_number("trace: longest_step", longest_step)
+    check_number("pressure", pressure)
     if not np.isfinite(pressure):
         raise SolverError(f"pressure must be a finite number of MPa, got {pressure}.")
     if not (0 < longest_step < np.inf and steps >= 1):
@@ -138,9 +139,16 @@ def _reason_to_end(
     """Why a traced path ends at its point ``number``; empty if it continues."""
     if arc.equilibrium.load >= 1:
         return "the asked load is reached."
-    if until is not None and until(point):
+    if until is not None and _holds(until(point)):
         return "it ends where it was asked to."
     return f"it ends after {steps} steps." if number >= steps else ""
+
+
+def _holds(answer: object) -> bool:
+    """Whether a condition holds; ``SolverError`` for an answer that is no truth value."""
+    if answer is not None and not isinstance(answer, bool | np.bool_):
+        raise SolverError(f"trace: until must return True or False, got {shown(answer)}.")
+    return bool(answer)
 
 
 def limit_ahead(

@@ -17,7 +17,6 @@ from solver.assembly.assembly import Equilibrium
 from solver.assembly.state import State
 from solver.nonlinear.newton import Newton
 from solver.paths.bordering import EquilibriumPoint, Row, corrected, equilibrium_point
-from solver.problem.contacts import planes_move
 
 FEW_ITERATIONS = 4
 GROWTH = 1.5
@@ -83,7 +82,7 @@ class Arcs:
         measured = np.ones(numbering.size, bool)
         measured[numbering.pressure] = False
         longest = longest_step * newton.problem.mesh.size
-        led = newton.problem.supports.prescribed or planes_move(newton.problem.contacts)
+        led = bool(newton.problem.supports.prescribed) or newton.assembly.contacts.move
         return Arcs(newton, measured, longest if led else 0.0, longest)
 
     def start(self, state: State, load: float, first_step: float) -> Arc:

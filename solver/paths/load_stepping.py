@@ -13,8 +13,8 @@ import numpy as np
 from solver.arrays import Reals
 from solver.assembly.state import State
 from solver.errors import SolverError
-from solver.input_types import check_function, check_instance, check_number, numbers, shown
-from solver.nonlinear.arguments import check_arguments, check_initial
+from solver.input_types import check_function, check_number, numbers, shown
+from solver.nonlinear.call_checks import check_call, check_initial
 from solver.nonlinear.checkpoint import Checkpoint, Effort
 from solver.nonlinear.events import Guard, Listener
 from solver.nonlinear.loading import Loading
@@ -106,10 +106,9 @@ def solve(
     Raises:
         SolverError: invalid input, or numbers that are not finite.
     """
-    check_arguments(problem, options, listener, after)
+    check_call(problem, options, listener, after, resume)
     check_initial(initial)
-    check_instance("resume", resume, Checkpoint, optional=True)
-    check_function("guard", guard)
+    check_function("guard", guard, "a State")
     check_number("pressure", pressure)
     if not np.isfinite(pressure):
         raise SolverError(f"pressure must be a finite number of MPa, got {pressure}.")
@@ -145,7 +144,8 @@ class LoadStepper:
         tolerance = newton.options.tolerance if exact else newton.loose_tolerance
         guess = newton.predicted(reached, load, target)
         attempt = newton.correct(guess, target, tolerance, onward=target != 1.0)
-        failure = attempt.failure or _jumped(newton, reached.state, guess, attempt.state)
+        led = newton.led_by_planes(load, target)
+        failure = attempt.failure or _jumped(newton, reached.state, guess, attempt.state, led)
         attempt = guarded(replace(attempt, failure=failure), self.guard)
         if attempt.failure:
             newton.effort.refused_steps += 1
@@ -174,20 +174,24 @@ class LoadStepper:
 def guarded(attempt: Attempt, guard: Guard | None) -> Attempt:
     """An attempt, failed if ``guard`` does not accept its equilibrium."""
     reason = "" if attempt.failure or guard is None else guard(attempt.state)
-    if reason and not isinstance(reason, str):
-        raise SolverError(f"guard must return a text, empty to go on, got {shown(reason)}.")
+    if reason is not None and not isinstance(reason, str):
+        raise SolverError(
+            "guard must return why a state is not accepted, as text, or an empty text; "
+            f"got {shown(reason)}."
+        )
     return replace(attempt, failure=reason, guarded=True) if reason else attempt
 
 
 def _stops(pressures: Sequence[float], loading: Loading) -> tuple[float, ...]:
     """Pressures, or without one fractions of the load, as ascending fractions within (0, 1)."""
     (start, pressure), rate = loading.pressures, loading.pressure_rate
-    loads = sorted({(stop - start) / rate if rate else stop for stop in pressures})
+    stops = numbers("stops", pressures)
+    loads = sorted({(stop - start) / rate if rate else stop for stop in stops})
     if not all(0 < load <= 1 + 1e-12 for load in loads):
         end = (
             f"{start:g} and the pressure of {pressure:g} MPa" if rate else "0 and the whole load, 1"
         )
-        raise SolverError(f"stops must lie between {end}, got {[*pressures]}.")
+        raise SolverError(f"stops must lie between {end}, got {[*stops]}.")
     return tuple(load for load in loads if load < 1 - 1e-12)
 
 
@@ -400,9 +404,12 @@ def _corrected(newton: Newton, better: Attempt, load: float, points: Points) -> 
     return (*points[:-1], newton.point(better.state, load, spent, newton.system.stable))
 
 
-def _jumped(newton: Newton, before: State, predicted: State, found: State) -> str:
-    """Why a state is not the continuation of the path, as after a snap-through; else empty."""
-    expected = np.abs(predicted.displacement - before.displacement).max()
+def _jumped(newton: Newton, before: State, predicted: State, found: State, led: float) -> str:
+    """Why a state is not the continuation of the path, as after a snap-through; else empty.
+
+    ``led``: how far planes move, mm, which no prediction knows before they touch.
+    """
+    expected = max(float(np.abs(predicted.displacement - before.displacement).max()), led)
     moved = np.abs(found.displacement - before.displacement).max()
     size = newton.problem.mesh.size
     if moved > JUMP_RATIO * expected + SHORTEST_JUMP * size:

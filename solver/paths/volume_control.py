@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from solver.input_types import check_number, numbers
-from solver.nonlinear.arguments import check_arguments
+from solver.nonlinear.call_checks import check_call
 from solver.nonlinear.checkpoint import Effort
 from solver.nonlinear.events import Listener
 from solver.nonlinear.loading import Loading
@@ -82,7 +82,7 @@ def inflate(
             wrong sign, or not in order between the one at no pressure and ``volume``.
     """
     start = time.perf_counter()
-    check_arguments(problem, options, listener, after)
+    check_call(problem, options, listener, after)
     check_number("inflate: volume", volume)
     volumes = (*numbers("inflate: stops", stops), float(volume))
     check_volumes(volumes)

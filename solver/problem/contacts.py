@@ -10,7 +10,7 @@ import numpy as np
 
 from solver.arrays import Reals
 from solver.errors import SolverError
-from solver.input_types import check_number
+from solver.input_types import check_number, is_axis, shown
 from solver.mesh.mesh import Mesh
 from solver.problem.vectors import finite
 
@@ -44,8 +44,10 @@ class Contact:
     def __post_init__(self) -> None:
         check_number("contacts: penetration", self.penetration)
         check_number("contacts: position", self.position)
-        if self.axis not in (None, 0, 1, 2):
-            raise SolverError(f"contacts: the plane's axis must be 0, 1 or 2, got {self.axis}.")
+        if self.axis is not None and not is_axis(self.axis):
+            raise SolverError(
+                f"contacts: the plane's axis must be 0, 1 or 2, got {shown(self.axis)}."
+            )
         if not 0 < self.penetration < np.inf or not np.isfinite(self.position):
             raise SolverError(
                 f"contacts: penetration = {self.penetration:g} mm must be above 0 and position = "
@@ -99,7 +101,7 @@ class RigidPlane:
         if self.motion is not None and not callable(self.motion):
             raise SolverError(
                 "contacts: the motion of a rigid plane must be a function of the load, "
-                f"got {self.motion}."
+                f"got {shown(self.motion)}."
             )
         self.displacement(0.0), self.displacement(1.0)
 

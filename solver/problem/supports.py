@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from numbers import Integral, Real
+from numbers import Real
 from types import MappingProxyType
 from typing import TypeAlias
 
@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from solver.arrays import Reals
 from solver.errors import SolverError
-from solver.input_types import mapping, names, shown
+from solver.input_types import is_axis, mapping, names, shown
 from solver.mesh.mesh import Mesh
 from solver.problem.loads import node_at
 
@@ -91,9 +91,9 @@ def axes_of(axes: Axes) -> list[int]:
 def _check_axes(what: str, axes: object) -> None:
     """Raise ``SolverError`` unless they are 0, 1 or 2, one or several."""
     several = axes if isinstance(axes, tuple | list) and axes else (axes,)
-    if not all(isinstance(axis, Integral) and axis in (0, 1, 2) for axis in several):
+    if not all(is_axis(axis) for axis in several):
         raise SolverError(
-            f"supports: {what} must be 0, 1 or 2, got {axes}; several are such as (0, 2)."
+            f"supports: {what} must be 0, 1 or 2, got {shown(axes)}; several are such as (0, 2)."
         )
 
 

@@ -10,7 +10,7 @@ from solver.arrays import Integers, Reals
 from solver.assembly.contact import ContactPair, contact_pairs
 from solver.mesh.elements import triangle_rule
 from solver.problem.vectors import finite
-from solver.results.solution import Solution
+from solver.results.solution import Solution, check_solution
 
 
 @dataclass(frozen=True)
@@ -56,6 +56,7 @@ def contact_forces(
     Raises:
         SolverError: a point that is not three finite numbers.
     """
+    check_solution(solution)
     point = finite("contact_forces: about (mm)", about, (3,))
     return tuple(_force(pair, solution, point) for pair in contact_pairs(solution.problem))
 

@@ -19,7 +19,7 @@ from solver.errors import SolverError
 from solver.kernels.assembly import total_energy
 from solver.problem.loads import couple, nodal_forces
 from solver.problem.springs import stiffness_matrix
-from solver.results.solution import Solution
+from solver.results.solution import Solution, check_solution
 
 
 @dataclass(frozen=True)
@@ -59,6 +59,7 @@ def strain_energy(solution: Solution) -> float:
     Returns:
         N mm; of a symmetric part its own share.
     """
+    check_solution(solution)
     state = solution.state
     displacement = np.ascontiguousarray(state.displacement)
     return float(total_energy(solid(solution.problem), displacement, state.hydrostatic_pressure)[0])
@@ -79,6 +80,7 @@ def potential(solution: Solution) -> Potential:
         SolverError: there is pressure on a surface with a free rim: the work of the pressure then
             depends on the way, and it has no potential (``work`` holds there too).
     """
+    check_solution(solution)
     problem, state, load = solution.problem, solution.state, solution.load
     displacement = state.displacement.ravel()
     stiffness = stiffness_matrix(problem.mesh, problem.springs)

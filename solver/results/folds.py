@@ -10,16 +10,12 @@ what is read near it is not to be trusted.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from solver.arrays import Integers, Reals
 from solver.mesh.jacobians import folded
 from solver.mesh.mesh import Mesh
-
-if TYPE_CHECKING:
-    from solver.results.solution import Solution
 
 
 @dataclass(frozen=True)
@@ -46,22 +42,10 @@ class Folds:
             return ""
         place = ", ".join(f"{x:.4g}" for x in self.positions[0])
         return (
-            f"{count} element{'s are' if count > 1 else ' is'} folded (J < 0 in a corner), "
+            f"{count} element{'s are' if count > 1 else ' is'} folded (J < 0 in part of it), "
             f"{'the first ' if count > 1 else ''}at ({place}) mm of the undeformed body: "
             "stresses near there are not to be trusted."
         )
-
-
-def folded_elements(solution: Solution) -> Folds:
-    """Elements of the deformed body that are folded: with J < 0 somewhere, not at a node only.
-
-    Args:
-        solution: an equilibrium.
-
-    Returns:
-        The elements and where they lie; J is bounded all over each of them.
-    """
-    return folds_of(solution.problem.mesh, solution.displacement)
 
 
 def folds_of(mesh: Mesh, displacement: Reals) -> Folds:

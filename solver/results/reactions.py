@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 from solver.arrays import Reals
 from solver.assembly.assembly import unbalanced_forces
 from solver.problem.supports import SINGLE_NODES, held_by_each
-from solver.results.solution import Solution
+from solver.problem.vectors import finite
+from solver.results.solution import Solution, check_solution
 from solver.results.tractions import traction_forces
 
 Held = NDArray[np.bool_]
@@ -46,8 +47,9 @@ def reaction(
     The nodal forces that balance the body, in the components that the surface's support holds.
     Where another support holds the same component of a node, as a clamp does at the edge of a plane
     of symmetry, each takes the integral of the traction on its own surface, weighted by the node's
-    shape function, and an equal part of what these leave of the nodal force: the reactions of all
-    supports add up to the nodal forces. Lever arms are those of the deformed body.
+    shape function and without what loads, springs and planes exert there, and an equal part of what
+    these leave of the nodal force: the reactions of all supports add up to the nodal forces. Lever
+    arms are those of the deformed body.
 
     Args:
         solution: an equilibrium.
@@ -59,12 +61,14 @@ def reaction(
         its nodes.
 
     Raises:
-        SolverError: an unknown surface.
+        SolverError: an unknown surface, or a point that is not three finite numbers.
     """
+    check_solution(solution)
+    point = finite("reaction: about (mm)", about, (3,))
     mesh = solution.problem.mesh
     nodes = mesh.surface_nodes(surface)
     forces, shared = _forces(solution, surface)
-    arms = mesh.nodes[nodes] + solution.displacement[nodes] - np.asarray(about, float)
+    arms = mesh.nodes[nodes] + solution.displacement[nodes] - point
     x, y, z = (bool(shared[:, axis].any()) for axis in range(3))
     moment = np.cross(arms, forces[nodes]).sum(axis=0)
     return Reaction(forces[nodes].sum(axis=0), moment, (x, y, z))

@@ -10,9 +10,11 @@ import numpy as np
 from solver.arrays import Reals
 from solver.assembly.pressure import enclosed_volume
 from solver.assembly.state import State
+from solver.input_types import check_instance, names
 from solver.mesh.mesh import Mesh
 from solver.problem.problem import Problem
-from solver.results.folds import folds_of
+from solver.problem.vectors import check_displacement
+from solver.results.folds import Folds, folds_of
 
 StopKind: TypeAlias = Literal["", "step", "limit", "guard", "budget"]
 """What ended a path before the whole load: no step succeeds, a limit point or bifurcation, a state
@@ -134,6 +136,24 @@ class Solution:
         return self.path[-1].rotation
 
 
+def check_solution(given: object) -> None:
+    """Raise ``SolverError`` unless ``given`` is a solution."""
+    check_instance("solution", given, Solution)
+
+
+def folded_elements(solution: Solution) -> Folds:
+    """Elements of the deformed body that are folded: with J < 0 somewhere, not at a node only.
+
+    Args:
+        solution: an equilibrium.
+
+    Returns:
+        The elements and where they lie; J is bounded all over each of them.
+    """
+    check_solution(solution)
+    return folds_of(solution.problem.mesh, solution.displacement)
+
+
 def cavity_volume(mesh: Mesh, displacement: Reals, surfaces: tuple[str, ...]) -> float:
     """Volume of the cavity inside surfaces of the deformed mesh; of its half in a half model.
 
@@ -148,6 +168,9 @@ def cavity_volume(mesh: Mesh, displacement: Reals, surfaces: tuple[str, ...]) ->
         mm^3; negative for surfaces that face outwards, around the body.
 
     Raises:
-        SolverError: an unknown surface.
+        SolverError: an unknown surface, or displacements that are not of the mesh's nodes.
     """
-    return enclosed_volume(mesh, displacement, surfaces)
+    check_instance("cavity_volume: mesh", mesh, Mesh)
+    check_displacement("cavity_volume: displacement", displacement, len(mesh.nodes))
+    each_once = tuple(dict.fromkeys(names("cavity_volume: surfaces", surfaces)))
+    return enclosed_volume(mesh, displacement, each_once)

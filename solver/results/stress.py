@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -14,9 +13,7 @@ from solver.kernels.stress import deviatoric_stress
 from solver.mesh.elements import TETRAHEDRON_EDGES, tetrahedron_rule
 from solver.problem.problem import Problem
 from solver.results.sharp_edges import trusted_nodes
-
-if TYPE_CHECKING:
-    from solver.results.solution import Solution
+from solver.results.solution import Solution, check_solution
 
 
 @dataclass(frozen=True)
@@ -49,6 +46,7 @@ def nodal_von_mises(solution: Solution) -> Reals:
 
         *Shape:* (n,) in MPa.
     """
+    check_solution(solution)
     return von_mises(deviatoric_at_nodes(solution.problem, solution.state.displacement))
 
 
@@ -63,6 +61,7 @@ def nodal_cauchy(solution: Solution) -> Reals:
 
         *Shape:* (n, 6) in MPa.
     """
+    check_solution(solution)
     stress = deviatoric_at_nodes(solution.problem, solution.state.displacement)
     stress[:, :3] -= nodal_pressure(solution.problem, solution.state)[:, None]
     return stress
@@ -78,6 +77,7 @@ def peak_von_mises(solution: Solution) -> Peak:
     Returns:
         The stress and where it is.
     """
+    check_solution(solution)
     mesh = solution.problem.mesh
     stress = element_stress(solution)
     at_nodes = _average(mesh.tets, stress.raw, stress.volumes, len(mesh.nodes))

@@ -4,25 +4,32 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from solver.results.solution import Solution
+from solver.errors import SolverError
+from solver.input_types import file_path
+from solver.results.solution import Solution, check_solution
 from solver.results.stress import nodal_pressure, nodal_von_mises
 
 
-def write_vtu(path: str | Path, solution: Solution) -> None:
+def write_vtu(path: Path | str, solution: Solution) -> None:
     """Write a file for ParaView.
 
     It holds the undeformed mesh with displacement (mm), von Mises stress and hydrostatic pressure
     (MPa) at the nodes.
 
     Args:
-        path: of the file, which is overwritten.
+        path: of the file, ending in ``.vtu``; it is overwritten.
         solution: an equilibrium.
 
     Raises:
+        SolverError: a path with another ending.
         OSError: the file cannot be written.
     """
     import meshio
 
+    check_solution(solution)
+    place = file_path("write_vtu: path", path)
+    if place.suffix != ".vtu":
+        raise SolverError(f"write_vtu: path must end in .vtu, got {str(place)!r}.")
     mesh = solution.problem.mesh
     # VTK's last two mid-edge nodes are those of (1, 3) and (2, 3), in Gmsh they are swapped
     cells = mesh.tets[:, [0, 1, 2, 3, 4, 5, 6, 7, 9, 8]]
@@ -31,4 +38,4 @@ def write_vtu(path: str | Path, solution: Solution) -> None:
         "von_mises_mpa": nodal_von_mises(solution),
         "hydrostatic_pressure_mpa": nodal_pressure(solution.problem, solution.state),
     }
-    meshio.Mesh(mesh.nodes, [("tetra10", cells)], point_data=fields).write(path)
+    meshio.Mesh(mesh.nodes, [("tetra10", cells)], point_data=fields).write(place)

@@ -61,7 +61,8 @@ def work(solutions: Sequence[Solution]) -> Work:
     Raises:
         SolverError: no solution, or solutions with different meshes or numbers of contacts.
     """
-    members_of("work: solutions", solutions, (Solution,))
+    given = members_of("work: solutions", solutions, (Solution,))
+    solutions = [each for each in given if isinstance(each, Solution)]
     if not solutions:
         raise SolverError("work: needs at least one solution.")
     first = solutions[0].problem

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 from hard_bodies import CLAMPED, NEO_HOOKE
+from hard_calls import ARGUMENTS
 from hard_case import Finding, HardCase, refused, true
 from meshes import box_mesh
 
@@ -23,10 +24,8 @@ from solver import (
     SolverOptions,
     Supports,
     Traction,
-    inflate,
     solve,
     trace,
-    work,
 )
 from solver.material.mooney_rivlin import MooneyRivlin
 from solver.meshing import MeshOptions, mesh_solid
@@ -181,41 +180,6 @@ def meshes() -> Calls:
     return calls
 
 
-def walks() -> Calls:
-    """What calls that follow a path take."""
-    problem = _problem()
-    calls = _each(
-        lambda **change: solve(**{"problem": problem, "pressure": 0.1, **change}),
-        "",
-        problem=(None, BOX, [problem]),
-        options=(0.1, {"first_step": 0.1}),
-        listener=(3, "step"),
-        initial=(BOX.nodes, (BOX.nodes,), "zero"),
-        stops=(0.05, "0.05", (None,)),
-        resume=("walk.npz", problem),
-        guard=("folded", lambda state: True),
-        after=(problem, "first", BOX.nodes),
-    )
-    calls |= _each(
-        lambda **change: trace(**{"problem": problem, "pressure": 0.1, **change}),
-        "",
-        until=(3,),
-        steps=("60", None),
-        longest_step=("1",),
-        after=(problem,),
-        options=(0.1,),
-    )
-    calls |= _each(
-        lambda **change: inflate(**{"problem": problem, "volume": 0.1, **change}),
-        "",
-        volume=("1", None),
-        stops=(0.05, ("0.05",)),
-        after=(problem,),
-    )
-    calls["work of a single solution"] = (lambda: work(solve(problem, 0.1)), "work: solutions")
-    return calls
-
-
 def kinds() -> tuple[Finding, ...]:
     """All of them; and what is as good as the kind asked for is taken."""
     from_lists = Problem(BOX, NEO_HOOKE, Supports(["x0"], {"y0": np.int64(1)}), ["x1"], [PULL])
@@ -225,7 +189,6 @@ def kinds() -> tuple[Finding, ...]:
         refused("laws", laws()),
         refused("loads and options", loads()),
         refused("meshes", meshes()),
-        refused("walks", walks()),
         true("lists and whole numbers of NumPy are taken", solve(from_lists).converged),
     )
 
@@ -251,6 +214,7 @@ CASES = (
         "refused with the parameter's name and what belongs there",
         kinds,
     ),
+    ARGUMENTS,
     HardCase(
         "Ogden's constants as he wrote them",
         "another definition of μ: a material that is off by α/2, or a refusal without a hint",

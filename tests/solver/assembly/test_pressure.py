@@ -125,6 +125,13 @@ def test_volume_of_a_box_shaped_cavity_is_its_edges_product(cells: BoxMesh) -> N
     assert solid == pytest.approx(-1.2 * 1.4 * 1.8)
 
 
+def test_a_surface_named_twice_encloses_its_volume_once(cells: BoxMesh) -> None:
+    mesh = cells(np.ones((1, 1, 1), int), [np.array([1.0, 2.0])] * 3)
+    still, names = np.zeros(mesh.nodes.shape), tuple(mesh.surfaces)
+    assert cavity_volume(mesh, still, (*names, *names)) == pytest.approx(-1.0, rel=1e-12)
+    assert f"{cavity_volume(mesh, still, ('x0',))}" == "0.0"
+
+
 @pytest.mark.parametrize("angle", [0.3, np.pi, 7.0])
 def test_volume_is_the_same_wherever_the_body_is_moved(cells: BoxMesh, angle: float) -> None:
     mesh = hollow(cells)

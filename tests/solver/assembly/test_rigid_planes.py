@@ -165,6 +165,33 @@ def test_the_default_tolerance_settles_the_force(sphere: Meshes, travel: float) 
     assert forces[0] == pytest.approx(forces[1], rel=1e-3)
 
 
+@pytest.mark.parametrize("depth", [0.1, 0.01])
+@pytest.mark.parametrize("away", [0.0, 1.0, 10.0])
+def test_the_default_tolerance_settles_the_force_on_a_soft_body_too(
+    box: Meshes, depth: float, away: float
+) -> None:
+    """A bar bent by a plane: the clamp bears all of it, at pressures far below the modulus."""
+    slanted = RigidPlane(
+        "z1", depth, (-0.5, 0, -1), (10, 0, 1 + away), lambda load: (0, 0, -load * (3 + away))
+    )
+    problem = Problem(box((10, 2, 2), (10, 1, 1)), RUBBER, Supports(("x0",)), contacts=(slanted,))
+    solution = solve(problem)
+    assert solution.converged
+    pushed = contact_forces(solution)[0].force
+    assert reaction(solution, "x0").force == pytest.approx(-pushed, rel=5e-3, abs=1e-8)
+
+
+@pytest.mark.parametrize("away", [0.0, 1.0, 100.0, 1e4])
+def test_a_plane_may_come_from_far_away(box: Meshes, away: float) -> None:
+    """Steps before the touch move nothing, the one after it the body at once."""
+    plane = lid(1e-3, travel=0.3 + away, height=1.0 + away)
+    solution = pressed(box((1, 1, 1)), plane)
+    stretch = 1 + solution.displacement[:, 2].min()
+    assert stretch == pytest.approx(0.7, abs=2e-3)
+    force = contact_forces(solution)[0].force[2]
+    assert -force == pytest.approx(stretch**-2 - stretch, rel=1e-6)
+
+
 def test_a_turned_problem_has_the_turned_answer(box: Meshes) -> None:
     mesh, turn = box((2, 1, 1), (2, 1, 1)), Rotation.from_rotvec((0.7, -1.1, 0.4)).as_matrix()
     normal, point, travel = np.array([-3.0, 0, 2]), np.array([2.0, 0, 0]), np.array([-0.6, 0, 0])
@@ -244,6 +271,38 @@ def test_arc_length_follows_a_plane_that_moves(box: Meshes) -> None:
     assert last >= 1 and not walked.limits
     state = walked.states[-1]
     assert state.displacement[:, 2].min() == pytest.approx(-0.3 * last, abs=0.02)
+
+
+@pytest.mark.parametrize("depth", [1e-4, 1e-8])
+def test_a_block_between_plates_is_lost_where_one_with_led_ends_is(
+    box: Meshes, depth: float
+) -> None:
+    """However stiff the contact, the whole load is beyond: there the block would be unstable."""
+
+    def led(positions: Array, load: float) -> Array:
+        return np.broadcast_to([np.nan, np.nan, -0.5 * load], positions.shape)
+
+    mesh = box((3, 3, 3))
+    supports = replace(THIRDS, prescribed={"z1": led})
+    loads = [solve(Problem(mesh, RUBBER, supports)).load]
+    loads += [solve(Problem(mesh, RUBBER, THIRDS, contacts=(lid(depth, 0.5, 1.0),))).load]
+    assert loads[0] < 0.995
+    assert loads[1] == pytest.approx(loads[0], abs=5e-3)
+
+
+def test_arc_length_follows_a_plane_that_comes_to_the_body(box: Meshes) -> None:
+    """Nothing moves before the touch at a quarter of the load, which is a kink and no limit."""
+    problem = Problem(box((2, 2, 2)), RUBBER, THIRDS, contacts=(lid(0.01, travel=0.4),))
+    walked = trace(problem, until=lambda point: point.load >= 1)
+    assert walked.points[-1].load >= 1 and not walked.limits
+    touched = [
+        (point.load, state.displacement[:, 2].min())
+        for point, state in zip(walked.points, walked.states, strict=True)
+        if point.load > 0.26
+    ]
+    assert len(touched) >= 3
+    for load, moved in touched:
+        assert moved == pytest.approx(0.1 - 0.4 * load, abs=0.03)
 
 
 @pytest.mark.parametrize(

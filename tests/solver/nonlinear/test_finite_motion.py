@@ -7,6 +7,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
 
 from solver import Mesh, SlenderAxis, rotation
 from solver.nonlinear.finite_motion import motion_along
@@ -72,9 +73,49 @@ def test_bending_goes_on_being_counted_where_the_body_is_twisted_as_well(box: Bo
     assert rotation(mesh, moved - centred) == pytest.approx(400.0, abs=0.5)
 
 
+@pytest.mark.parametrize("degrees", [50.0, 200.0, 400.0, -800.0])
+def test_turns_are_counted_from_the_held_end_to_the_surface_wherever_it_lies(
+    box: BoxMesh, degrees: float
+) -> None:
+    """The bar is held at either end; the rest rotates, the held end does not."""
+    mesh = bar(box)
+    moved = mesh.nodes + bent(mesh.nodes, degrees)
+    assert rotation(mesh, moved - mesh.nodes, "x0") == pytest.approx(0.0, abs=1e-9)
+    middle = [20.0, 0.5, 1.0]
+    turn = Rotation.from_euler("y", -degrees, degrees=True).as_matrix()
+    there = (moved - moved[mesh.surface_nodes("tip")].mean(axis=0)) @ turn.T + middle
+    assert rotation(mesh, there - mesh.nodes, "tip") == pytest.approx(0.0, abs=1e-9)
+    assert rotation(mesh, there - mesh.nodes, "x0") == pytest.approx(-degrees, abs=1e-9)
+
+
+@pytest.mark.parametrize("degrees", [170.0, 200.0, 400.0])
+def test_turns_are_counted_along_bodies_that_do_not_lie_along_x(
+    box: BoxMesh, degrees: float
+) -> None:
+    """A bar along z bent about y, and one along y twisted about it."""
+    upright, twisted = (box(np.roll((20, 2, 2), k), np.roll((20.0, 1, 1), k)) for k in (2, 1))
+    x, y, z = upright.nodes.T
+    angle, radius = np.radians(degrees) * z / 20, 20 / np.radians(degrees)
+    arc = np.stack([radius - (radius - x) * np.cos(angle), y, (radius - x) * np.sin(angle)], 1)
+    assert rotation(upright, arc - upright.nodes, "z1") == pytest.approx(degrees, abs=1e-9)
+    x, y, z = twisted.nodes.T
+    angle = np.radians(degrees) * y / 20
+    turned = np.stack([np.cos(angle) * x + np.sin(angle) * z, y,
+                       np.cos(angle) * z - np.sin(angle) * x], 1)  # fmt: skip
+    assert rotation(twisted, turned - twisted.nodes, "y1") == pytest.approx(degrees, abs=1e-9)
+
+
+def test_turns_are_counted_on_coarse_meshes_too(box: BoxMesh) -> None:
+    mesh = tipped(box((2, 1, 1), (20.0, 1.0, 1.0)))
+    for degrees in (200.0, 400.0, -600.0):
+        assert rotation(mesh, bent(mesh.nodes, degrees)) == pytest.approx(degrees, abs=1e-9)
+
+
 def test_rotation_without_the_surface_is_not_a_number(box: BoxMesh) -> None:
     mesh = box((1, 1, 1))
     assert np.isnan(rotation(mesh, np.zeros(mesh.nodes.shape)))
+    empty = Mesh(mesh.nodes, mesh.tets, {"tip": mesh.surfaces["x0"][:0]})
+    assert np.isnan(rotation(empty, np.zeros(mesh.nodes.shape)))
 
 
 def test_a_small_increment_is_applied_as_it_stands(box: BoxMesh) -> None:

@@ -218,3 +218,13 @@ def test_transfer_reproduces_quadratic_fields(
     displacement, pressure = transfer(given, other)
     assert displacement == pytest.approx(field(other.nodes), abs=1e-12)
     assert pressure == pytest.approx(other.nodes[other.vertices] @ [1.0, -2.0, 0.5], abs=1e-12)
+
+
+def test_another_body_is_no_finer_mesh(box: Meshes, ninjaflex: Ogden) -> None:
+    """Fields are not extrapolated far beyond the body that they belong to."""
+    solution = solve(pulled(box((3, 2, 2)), ninjaflex), 0.0)
+    moved = box((3, 2, 2))
+    longer, away = box((3, 2, 2), (9.0, 1.0, 1.0)), Mesh(moved.nodes + 5, moved.tets)
+    for other, words in ((longer, "differ by 8 mm"), (away, "differ by 5 mm")):
+        with pytest.raises(ValueError, match=words):
+            transfer(solution, other)

@@ -7,7 +7,17 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from solver import Mesh, Ogden, Problem, Supports, Traction, reaction, solve
+from solver import (
+    FoundationSpring,
+    Mesh,
+    Ogden,
+    Problem,
+    RigidPlane,
+    Supports,
+    Traction,
+    reaction,
+    solve,
+)
 from solver.arrays import Reals
 from solver.nonlinear.options import SolverOptions
 
@@ -101,3 +111,23 @@ def test_pressure_and_traction_on_a_held_surface_are_no_part_of_its_reaction(
     assert not solution.displacement.any()
     assert reaction(solution, "x0").force == pytest.approx([-0.3, 0, 0], abs=1e-9)
     assert reaction(solution, "y0").force == pytest.approx([-0.2, -0.1, 0], abs=1e-9)
+
+
+def test_springs_and_planes_on_a_held_surface_are_no_part_of_its_neighbour_s_reaction(
+    box: BoxMesh,
+) -> None:
+    """Two faces that share an edge lead the body without deforming it: only one is resisted."""
+    mesh, way = box((2, 2, 2)), np.array([0.1, -0.05, -0.08])
+
+    def led(positions: Reals, load: float) -> Reals:
+        return np.broadcast_to(load * way, positions.shape)
+
+    supports = Supports(prescribed={"x0": led, "y0": led})
+    springs = (FoundationSpring("y0", (2.0, 3.0, 4.0)),)
+    sprung = Problem(mesh, Ogden.neo_hooke(1.0, 50.0), supports, springs=springs)
+    plane = RigidPlane("y0", 0.1, (0, 1, 0), (0, 0, 0))
+    pressed = Problem(mesh, Ogden.neo_hooke(1.0, 50.0), supports, contacts=(plane,))
+    for problem, force in ((sprung, way * [2, 3, 4]), (pressed, np.array([0, -0.45, 0]))):
+        solution = solve(problem, 0.0, TIGHT)
+        assert reaction(solution, "x0").force == pytest.approx(0.0, abs=1e-9)
+        assert reaction(solution, "y0").force == pytest.approx(force, abs=1e-9)
