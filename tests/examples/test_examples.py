@@ -35,6 +35,7 @@ def test_the_balloon_of_the_documentation_holds_as_much_as_the_closed_form_says(
     assert [row[3] for row in rows][:3] == ["True"] * 3 and rows[-1][3] == "False"
 
 
+@pytest.mark.slow
 def test_the_bar_converges_to_half_a_per_cent_from_the_elastica() -> None:
     _, *rows = printed_by("own_body.py")
     (_, *coarse), (_, *middle), (_, *fine), (_, *exact) = (line.split() for line in rows)
@@ -66,6 +67,7 @@ def test_the_ball_presses_on_the_plate_a_little_more_than_hertz_says() -> None:
     assert done == pytest.approx(stored, rel=0.03)
 
 
+@pytest.mark.slow
 def test_the_finger_of_ones_own_rubber_bends_as_far_as_its_stiffness_says() -> None:
     shear, misfit, reached, angle, stress, strain, warning = printed_by("own_material.py")
     assert numbers(shear) == pytest.approx([0.368], rel=0.01)

@@ -166,6 +166,7 @@ def test_vtu_holds_the_finest_solution(evaluation: Evaluation, tmp_path) -> None
     assert list(tmp_path.iterdir()) == [target]
 
 
+@pytest.mark.slow
 def test_accuracy_refines_until_the_estimate_keeps_it_or_the_memory_is_used_up() -> None:
     slim = ("bubble_width=12", "bubble_height=10", "tendon_width=8", "load.pressure=0.01")
     single = short("number_of_bubbles=1", "length=11.5", *slim)

@@ -187,6 +187,7 @@ def test_the_listener_hears_every_iteration_and_step(bellows: Meshes, ninjaflex:
     assert sum(point.iterations for point in solution.path) == solution.newton_iterations
 
 
+@pytest.mark.slow
 def test_a_coarse_solution_starts_a_finer_mesh_at_full_load(
     bellows: Meshes, ninjaflex: Ogden
 ) -> None:

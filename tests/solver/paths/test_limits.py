@@ -82,7 +82,11 @@ def test_a_walk_by_load_says_where_a_column_buckles() -> None:
 
 @pytest.mark.parametrize(
     ("loads", "linear_solver"),
-    [(3.0, "superlu"), (3.0, "auto"), pytest.param(8.0, "auto", marks=needs_inertia)],
+    [
+        pytest.param(3.0, "superlu", marks=pytest.mark.slow),
+        (3.0, "auto"),
+        pytest.param(8.0, "auto", marks=[needs_inertia, pytest.mark.slow]),
+    ],
 )
 def test_a_walk_that_bends_away_before_it_buckles_says_where(
     loads: float, linear_solver: str
@@ -93,6 +97,7 @@ def test_a_walk_that_bends_away_before_it_buckles_says_where(
     assert solution.stable is not False and "stability is lost" in solution.message
 
 
+@pytest.mark.slow
 @needs_inertia
 def test_so_does_one_in_a_stage_that_begins_near_the_critical_load() -> None:
     solution = solve(lopsided(3.0), after=solve(lopsided(0.8)))
