@@ -57,8 +57,8 @@ class FreeRim:
         if len(edges) and problem.moving_plane is not None:
             raise SolverError(
                 f"loads: the surfaces {', '.join(map(repr, problem.pressurised))} have a free rim "
-                f"at {_place(problem.mesh, edges)} mm; with a moving plane they must end in it, at "
-                "supports or in planes of symmetry."
+                f"at {place_of(problem.mesh, edges)} mm; with a moving plane they must end in it, "
+                "at supports or in planes of symmetry."
             )
         dofs = numbering.displacement[edges].reshape(-1, 9)
         places, signs = _upper_places(pattern, dofs)
@@ -121,8 +121,8 @@ def _upper_places(pattern: Pattern, dofs: Integers) -> tuple[NDArray[np.int32], 
     return places, signs
 
 
-def _place(mesh: Mesh, edges: Integers) -> str:
-    """The middle of the first edge, as text."""
+def place_of(mesh: Mesh, edges: Integers) -> str:
+    """The middle of the first of some edges (k, 3) in the undeformed body, as text."""
     return f"({', '.join(f'{x:.4g}' for x in mesh.nodes[edges[0, 2]])})"
 
 

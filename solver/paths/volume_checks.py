@@ -7,9 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from solver.arrays import Integers
-from solver.assembly.free_rim import free_edges, rim
+from solver.assembly.free_rim import free_edges, place_of, rim
 from solver.errors import SolverError
-from solver.mesh.mesh import Mesh
 from solver.nonlinear.newton import Newton
 from solver.paths.held_volume import HeldVolume, volume_of
 from solver.problem.problem import Problem
@@ -43,12 +42,12 @@ def check_closed(problem: Problem) -> None:
     if len(free):
         raise SolverError(
             f"inflate: the surfaces {names} enclose no volume: their rim is free at "
-            f"{_place(problem.mesh, free)} mm."
+            f"{place_of(problem.mesh, free)} mm."
         )
     across = _sliding_across_y(problem)
     if len(across):
         raise SolverError(
-            f"inflate: the opening of the surfaces {names} at {_place(problem.mesh, across)} mm "
+            f"inflate: the opening of the surfaces {names} at {place_of(problem.mesh, across)} mm "
             "slides in a plane normal to y: such a plane must be y = 0."
         )
 
@@ -65,11 +64,6 @@ def _sliding_across_y(problem: Problem) -> Integers:
     sliding = np.isnan(given[..., [0, 2]]).any(axis=(1, 2))
     across: Integers = edges[sliding & (height > 1e-9 * mesh.size)]
     return across
-
-
-def _place(mesh: Mesh, edges: Integers) -> str:
-    """The middle of the first edge, as text."""
-    return f"({', '.join(f'{x:.4g}' for x in mesh.nodes[edges[0, 2]])})"
 
 
 def seen_sign(rest: float, volume: float) -> float:

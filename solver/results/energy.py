@@ -13,7 +13,7 @@ import numpy as np
 
 from solver.assembly.assembly import solid
 from solver.assembly.contact import contact_pairs
-from solver.assembly.free_rim import free_edges
+from solver.assembly.free_rim import free_edges, place_of
 from solver.assembly.swept_volume import swept_volume
 from solver.errors import SolverError
 from solver.kernels.assembly import total_energy
@@ -98,9 +98,9 @@ def _pressure_work(solution: Solution) -> float:
     if not solution.pressure:
         return 0.0
     if len(free := free_edges(problem, displacement)):
-        where = ", ".join(f"{x:.4g}" for x in problem.mesh.nodes[free[0, 2]])
         raise SolverError(
-            f"potential: the pressurised surfaces have a free rim, at ({where}) mm, so that the "
+            "potential: the pressurised surfaces have a free rim, at "
+            f"{place_of(problem.mesh, free)} mm, so that the "
             "work of the pressure depends on the way and it has no potential."
         )
     swept = swept_volume(problem, np.zeros_like(displacement), displacement)
