@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from solver.paths.arc_length import Trace, trace
     from solver.paths.limits import Limit
     from solver.paths.load_stepping import solve
-    from solver.paths.volume_control import inflate
+    from solver.paths.volume.control import inflate
     from solver.problem.contacts import Contact, RigidPlane
     from solver.problem.loads import BodyForce, Couple, PointForce, Traction
     from solver.problem.problem import Problem, SlenderAxis
@@ -97,7 +97,7 @@ __getattr__ = imported_when_asked_for(
         "paths.load_stepping": ("solve",),
         "nonlinear.events": ("Event",),
         "nonlinear.options": ("SolverOptions",),
-        "paths.volume_control": ("inflate",),
+        "paths.volume.control": ("inflate",),
         "problem.loads": ("BodyForce", "Couple", "PointForce", "Traction"),
         "problem.contacts": ("Contact", "RigidPlane"),
         "problem.problem": ("Problem", "SlenderAxis"),

@@ -26,6 +26,11 @@ class Effort:
     load_steps: int = 0
     refused_steps: int = 0
 
+    @property
+    def steps(self) -> int:
+        """Accepted and refused ones."""
+        return self.load_steps + self.refused_steps
+
 
 @dataclass(frozen=True)
 class Checkpoint:

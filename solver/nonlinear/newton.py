@@ -13,9 +13,6 @@ without. It does not help cells with a moving plane, short and thick, and is not
 
 from __future__ import annotations
 
-import time
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -26,6 +23,7 @@ from solver.assembly.pressure import enclosed_volume
 from solver.assembly.state import State
 from solver.errors import SolverError
 from solver.linear.interface import SingularMatrix
+from solver.nonlinear.budget import Budget
 from solver.nonlinear.checkpoint import Checkpoint, Effort
 from solver.nonlinear.events import Event, Kind, Listener
 from solver.nonlinear.kinematics import Kinematics
@@ -130,33 +128,11 @@ class Newton:
         self.loose_tolerance = min(self.options.loose_tolerance, EDGE_SHARE * mesh.edge / mesh.size)
         if self.problem.springs:  # stress left open must not outweigh a soft spring
             self.loose_tolerance = min(self.loose_tolerance, self.options.tolerance)
-        self.began = time.monotonic()
-        self.limited = True
-
-    @contextmanager
-    def beyond_budget(self) -> Iterator[None]:
-        """Within the block the budget does not count: what was reached is brought to an end."""
-        self.limited = False
-        try:
-            yield
-        finally:
-            self.limited = True
-
-    def spent(self) -> float:
-        """Fraction of the solve's budget of steps or of seconds that is spent, the larger one."""
-        options = self.options
-        steps = (self.effort.load_steps + self.effort.refused_steps) / options.maximum_steps
-        seconds = (time.monotonic() - self.began) / options.seconds if options.seconds else 0.0
-        return max(steps, seconds)
+        self.budget = Budget(self.options)
 
     def exhausted(self) -> str:
         """Which part of the budget is spent, as text; empty while something is left."""
-        if not self.limited or self.spent() < 1:
-            return ""
-        steps = self.effort.load_steps + self.effort.refused_steps
-        if steps >= self.options.maximum_steps:
-            return f"the budget of {self.options.maximum_steps} steps is spent"
-        return f"the budget of {self.options.seconds:.3g} s is spent"
+        return self.budget.exhausted(self.effort)
 
     def correct(self, guess: State, load: float, tolerance: float, onward: bool = False) -> Attempt:
         """Equilibrium at a fixed load from ``guess``; with contact, if need be in two stages.
@@ -195,13 +171,8 @@ class Newton:
                 found = self._correction(state, load, reuse, iteration)
             except NoCorrection as reason:
                 return Attempt(guess, iteration, str(reason), touched=touched)
-            share = self.loading.share(load)
-            depth = self.assembly.contacts.depth(found.moved, share, tolerance)
-            touched |= bool(np.isfinite(depth))
-            small = found.size <= min(tolerance * self.problem.mesh.size, depth)
-            small &= found.pressure_size <= pressure_bound(tolerance)
-            if small and np.isfinite(depth):
-                small = self.assembly.contacts.settled(found.state, found.moved, share, tolerance)
+            small, touches = self._is_small(found, load, tolerance)
+            touched |= touches
             distance = self.distance(found)
             fast = distance < self.options.reuse * previous
             if small and (own or not onward):
@@ -234,6 +205,17 @@ class Newton:
         self.notify("iteration", load, moved, iteration, size)
         pressure_size = self.pressure_size(increment, moved)
         return Correction(state, equilibrium, increment, moved, size, pressure_size)
+
+    def _is_small(self, found: Correction, load: float, tolerance: float) -> tuple[bool, bool]:
+        """Whether a correction may be the last one, and whether surfaces touch after it."""
+        contacts, share = self.assembly.contacts, self.loading.share(load)
+        depth = contacts.depth(found.moved, share, tolerance)
+        touches = bool(np.isfinite(depth))
+        small = found.size <= min(tolerance * self.problem.mesh.size, depth)
+        small = small and found.pressure_size <= pressure_bound(tolerance)
+        if small and touches:
+            small = contacts.settled(found.state, found.moved, share, tolerance)
+        return small, touches
 
     def distance(self, found: Correction) -> float:
         """Size of a correction in both fields, the larger one, in body diagonals."""
@@ -398,5 +380,5 @@ class Newton:
         """Call the listener with an event."""
         if self.listener is not None:
             rotation = self.kinematics.rotation(state)
-            spent = self.spent()
+            spent = self.budget.spent(self.effort)
             self.listener(Event(kind, load, rotation, iteration, correction, checkpoint, spent))

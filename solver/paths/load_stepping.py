@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import math
 import time
 from collections.abc import Sequence
 from dataclasses import astuple, dataclass, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -22,17 +20,9 @@ from solver.nonlinear.newton import Attempt, Newton
 from solver.nonlinear.options import FIRST_STEP, SolverOptions
 from solver.paths.outcome import AtStop, Path, Points, solution_of
 from solver.paths.step_control import Segment, StepControl, follow
+from solver.paths.stopping import corrected, stopped
 from solver.problem.problem import Problem
-from solver.results.solution import PathPoint, Solution, StopKind
-
-if TYPE_CHECKING:
-    from solver.paths.limits import Limit
-
-LIMIT_DISTANCE = 0.05
-"""Largest distance of a limit point that explains a stop, as a fraction of the load reached."""
-
-LIMIT_STEPS = 24
-"""Most steps by arc length in search of that limit point."""
+from solver.results.solution import PathPoint, Solution
 
 SHORT_STEP = 0.03
 """Fraction of the load; a shorter step is solved to the full tolerance."""
@@ -40,24 +30,11 @@ SHORT_STEP = 0.03
 UNLOADING = (0.97, 0.9, 0.8, 0.65, 0.5)
 """Fractions of the load at which the guard is asked again after it refused the whole load."""
 
-BACKING_OFF = (1.0, 0.98, 0.9, 0.7)
-"""Fractions of the load reached at which an equilibrium to the full tolerance is searched."""
-
-RESOLVED_FROM = 0.2
-"""Fraction of the load below which the smallest step is in proportion to the load reached: a limit
-point at a thousandth of the load is found too."""
-
 JUMP_RATIO = 4.0
 """Ratio of actual to predicted displacement beyond which a state lies on another branch."""
 
 SHORTEST_JUMP = 0.02
 """Displacement, in body diagonals, to which the ratio may be exceeded on the same branch."""
-
-
-UNSTABLE_START = (
-    "the state that the stage begins with is unstable under the stage's supports; what held it "
-    "before and is gone may be led away instead"
-)
 
 
 def solve(
@@ -114,7 +91,7 @@ def solve(
         raise SolverError(f"pressure must be a finite number of MPa, got {pressure}.")
     start = time.perf_counter()
     loading = Loading.of(problem, float(pressure), after)
-    loads = _stops(numbers("stops", stops), loading)
+    loads = _stops(stops, loading)
     newton = Newton(problem, loading, options or SolverOptions(), listener)
     path = None
     if resume is not None:
@@ -236,8 +213,9 @@ def _up_to_guard(
 
 
 def _unloaded(newton: Newton) -> PathPoint:
-    """The point at no load."""
-    return newton.point(newton.loading.start, 0.0, 0, True)
+    """The point at no load; whether another stage ended stable is not known here."""
+    undeformed = not len(newton.loading.supports_from)
+    return newton.point(newton.loading.start, 0.0, 0, True if undeformed else None)
 
 
 def _from_zero(newton: Newton) -> tuple[Segment[Attempt], Points]:
@@ -278,7 +256,7 @@ def _loaded(
         segment = _followed(newton, replace(segment, points=()), stop, points, guard)
         points += segment.points
         if segment.failure:
-            return replace(_stopped(newton, segment, points), at_stops=reached)
+            return replace(stopped(newton, segment, points), at_stops=reached)
         reached += (AtStop(segment.reached.state, points),)
     return Path(segment.reached.state, points, at_stops=reached[:-1])
 
@@ -292,98 +270,7 @@ def _followed(
 ) -> Segment[Attempt]:
     """Adaptive load steps to ``end``: predict along the tangent, correct, grow or cut the step."""
     stepper = LoadStepper(newton, end, before, guard)
-    return follow(stepper, segment, end, _control(newton.options))
-
-
-def _control(options: SolverOptions) -> StepControl:
-    return StepControl(options.growth, options.cut, options.smallest_step, RESOLVED_FROM)
-
-
-def _stopped(newton: Newton, segment: Segment[Attempt], points: Points) -> Path:
-    """A path that stops before the end, with the limit point that causes it if there is one.
-
-    Its last state may fulfil the loose tolerance only: it is corrected once more.
-    """
-    kind, load = _stop_kind(newton, segment), segment.position
-    with newton.beyond_budget():
-        state, load, points, tolerance = _last_equilibrium(
-            newton, segment.reached.state, load, points
-        )
-    limit = _limit_near(newton, state, load) if kind == "step" and load else None
-    coarse = f" (its last state is in equilibrium to {tolerance:.2g} diagonals only)"
-    note = coarse if tolerance > newton.options.tolerance else ""
-    if limit is None:
-        lost = kind == "step" and _starts_unstable(newton, points)
-        reason = UNSTABLE_START if lost else segment.failure
-        return Path(state, points, reason + note, stopped_by=kind)
-    reason = limit.describe(max(newton.loading.pressures, key=abs)) + note
-    return Path(state, points, reason, limit.point.load, "limit")
-
-
-def _starts_unstable(newton: Newton, points: Points) -> bool:
-    """Whether a path got nowhere because what the stage begins with is unstable."""
-    return (
-        len(newton.loading.supports_from) > 0
-        and points[-1].load == 0
-        and points[-1].stable is False
-    )
-
-
-def _last_equilibrium(
-    newton: Newton, state: State, load: float, points: Points
-) -> tuple[State, float, Points, float]:
-    """A path's end, and the tolerance to which it is in equilibrium, in body diagonals.
-
-    That is the full one; at a lower load where it is not met at ``load``. Where it is not met at
-    lower loads either, the state that was reached is kept, corrected as far as that goes.
-    """
-    full = newton.options.tolerance
-    for lower in (share * load for share in BACKING_OFF):
-        found = newton.correct(state, lower, full)
-        if found.failure:
-            continue
-        if lower == load:
-            return found.state, load, _corrected(newton, found, load, points), full
-        before = tuple(point for point in points if point.load < lower)
-        point = newton.point(found.state, lower, found.iterations, newton.system.stable)
-        return found.state, lower, (*before, point), full
-    if load == 0:
-        return state, load, points, full
-    for tolerance in _coarser(newton):
-        found = newton.correct(state, load, tolerance)
-        if not found.failure:
-            return found.state, load, _corrected(newton, found, load, points), tolerance
-    return state, load, points, newton.loose_tolerance
-
-
-def _coarser(newton: Newton) -> list[float]:
-    """Tolerances between the full one and that of states on the way, ten times coarser each."""
-    full, loose = newton.options.tolerance, newton.loose_tolerance
-    count = max(0, math.ceil(math.log10(loose / full)))
-    return [full * 10**power for power in range(1, count)] + [max(full, loose)]
-
-
-def _stop_kind(newton: Newton, segment: Segment[Attempt]) -> StopKind:
-    """What stopped a path: its budget, the guard, or that no step succeeds."""
-    if newton.exhausted():
-        return "budget"
-    return "guard" if segment.refused is not None and segment.refused.guarded else "step"
-
-
-def _limit_near(newton: Newton, state: State, load: float) -> Limit | None:
-    """The limit point that explains why no step from a state succeeds, if there is one.
-
-    A stable state may lie beyond the bifurcation of a body that bends away before it.
-    """
-    from solver.paths.arc_length import bifurcation_near, limit_ahead
-
-    step = _control(newton.options).smallest_at(load)
-    limit = limit_ahead(newton, state, load, step, LIMIT_STEPS)
-    if limit is not None and -1e-6 * load <= limit.point.load - load <= LIMIT_DISTANCE * load:
-        return limit
-    limit = bifurcation_near(newton, state, load)
-    near = limit is not None and abs(limit.point.load - load) <= LIMIT_DISTANCE * load
-    return limit if near else None
+    return follow(stepper, segment, end, StepControl.of_loads(newton.options))
 
 
 def _recorrected(newton: Newton, segment: Segment[Attempt]) -> Segment[Attempt]:
@@ -392,16 +279,8 @@ def _recorrected(newton: Newton, segment: Segment[Attempt]) -> Segment[Attempt]:
     better = newton.correct(state, load, newton.options.tolerance, onward=True)
     if better.failure:
         return segment
-    points = _corrected(newton, better, load, segment.points)
+    points = corrected(newton, better, load, segment.points)
     return replace(segment, reached=better, points=points)
-
-
-def _corrected(newton: Newton, better: Attempt, load: float, points: Points) -> Points:
-    """Points with the last one replaced by that of a corrected state at the same load."""
-    if not points:
-        return points
-    spent = points[-1].iterations + better.iterations
-    return (*points[:-1], newton.point(better.state, load, spent, newton.system.stable))
 
 
 def _jumped(newton: Newton, before: State, predicted: State, found: State, led: float) -> str:

@@ -10,6 +10,7 @@ import math
 from dataclasses import dataclass, replace
 from typing import Generic, Protocol, TypeVar
 
+from solver.nonlinear.options import SolverOptions
 from solver.results.solution import PathPoint
 
 
@@ -69,12 +70,21 @@ class StepControl:
     smallest: float
     scale: float = 0.0
 
+    @staticmethod
+    def of_loads(options: SolverOptions) -> StepControl:
+        """For steps of the load, a fraction of the whole one."""
+        return StepControl(options.growth, options.cut, options.smallest_step, RESOLVED_FROM)
+
     def smallest_at(self, position: float) -> float:
         """Shortest step from there."""
         if not self.scale:
             return self.smallest
         return self.smallest * min(1.0, max(abs(position) / self.scale, LEAST_SCALE))
 
+
+RESOLVED_FROM = 0.2
+"""Fraction of the load below which the smallest step is in proportion to the load reached: a limit
+point at a thousandth of the load is found too."""
 
 LEAST_SCALE = 1e-6
 """A path that ends at less than this fraction of its ``scale`` is not resolved."""

@@ -12,7 +12,7 @@ from solver.assembly.state import State
 from solver.nonlinear.events import Guard
 from solver.nonlinear.loading import Loading
 from solver.nonlinear.newton import Attempt, Newton
-from solver.paths import load_stepping
+from solver.paths import stopping
 from solver.paths.outcome import figures
 from solver.paths.step_control import StepControl
 
@@ -129,7 +129,7 @@ def test_where_the_end_of_a_path_fails_the_full_tolerance_a_lower_equilibrium_is
 
     monkeypatch.setattr(Newton, "correct", stubborn)
     points = tuple(newton.point(good.state, load, 1, True) for load in (0.0, 0.3, 0.5))
-    state, load, kept, tolerance = load_stepping._last_equilibrium(newton, good.state, 0.5, points)
+    state, load, kept, tolerance = stopping._last_equilibrium(newton, good.state, 0.5, points)
     assert tolerance == newton.options.tolerance
     assert load == pytest.approx(0.98 * 0.5)
     assert [point.load for point in kept] == [0.0, 0.3, load]

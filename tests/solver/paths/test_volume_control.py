@@ -39,7 +39,7 @@ from solver.nonlinear.checkpoint import Checkpoint
 from solver.nonlinear.loading import Loading
 from solver.nonlinear.newton import Newton
 from solver.paths.bordering import equilibrium_point
-from solver.paths.held_volume import HeldVolume, volume_of
+from solver.paths.volume.held import HeldVolume, volume_of
 
 Meshes = Callable[..., Mesh]
 Points = np.ndarray

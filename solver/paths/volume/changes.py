@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 from solver.nonlinear.newton import Newton
-from solver.paths.held_volume import HeldVolume, at_volume
+from solver.paths.volume.held import HeldVolume, at_volume
 
 HALVINGS = 6
 """A bifurcation is located to this power of a half of the step."""

@@ -10,7 +10,7 @@ from solver.arrays import Integers
 from solver.assembly.free_rim import free_edges, place_of, rim
 from solver.errors import SolverError
 from solver.nonlinear.newton import Newton
-from solver.paths.held_volume import HeldVolume, volume_of
+from solver.paths.volume.held import HeldVolume, volume_of
 from solver.problem.problem import Problem
 from solver.problem.supports import given_displacements
 

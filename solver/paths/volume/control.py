@@ -20,12 +20,11 @@ from solver.nonlinear.loading import Loading
 from solver.nonlinear.newton import Newton
 from solver.nonlinear.options import FIRST_STEP, SolverOptions
 from solver.paths.bordering import equilibrium_point
-from solver.paths.held_volume import HeldVolume, at_volume
 from solver.paths.load_stepping import solve
 from solver.paths.outcome import AtStop, Path, Points, figures, solution_of
 from solver.paths.step_control import Segment, StepControl, follow
-from solver.paths.volume_changes import Change, ChangeKind, changes_between, turning
-from solver.paths.volume_checks import (
+from solver.paths.volume.changes import Change, ChangeKind, changes_between, turning
+from solver.paths.volume.checks import (
     check_changeable,
     check_closed,
     check_volumes,
@@ -33,6 +32,7 @@ from solver.paths.volume_checks import (
     signed_targets,
     volume_at_start,
 )
+from solver.paths.volume.held import HeldVolume, at_volume
 from solver.problem.contacts import planes_move
 from solver.problem.problem import Problem
 from solver.results.solution import PathPoint, Solution
@@ -133,7 +133,7 @@ def _newton(
     counts = (loaded.newton_iterations, loaded.factorizations)
     effort = Effort(*counts, loaded.load_steps, loaded.refused_steps)
     newton = Newton(problem, replace(loading, start=loaded.state), options, listener, effort)
-    newton.began -= loaded.seconds
+    newton.budget.began -= loaded.seconds
     return newton
 
 

@@ -1,0 +1,1 @@
+"""Volume control: equilibria at given volumes, and what happens between them."""
