@@ -22,7 +22,7 @@ from bellows_design.design.indent import Indent
 from bellows_design.design.port import Port
 from bellows_design.design.shipped import load_design, shipped_designs
 from bellows_design.geometry.actuator import full_body, half_body, printed_part
-from bellows_design.geometry.named_solids import NamedSolid
+from bellows_design.geometry.named_solids import GeometryError, NamedSolid
 from bellows_design.geometry.tessellation import tessellate
 from bellows_design.study.paper import TABLE_4
 
@@ -508,6 +508,25 @@ def test_admissible_numbers_build_and_all_others_are_refused() -> None:
 @pytest.mark.slow
 def test_many_admissible_numbers_build_and_all_others_are_refused() -> None:
     assert count_built(examples=150) >= 40
+
+
+UNJOINED = changed(
+    PROTOTYPE_1,
+    bubble_width=15.4, bubble_height=19.00570682161811, bubble_thickness=0.4,
+    tendon_width=10.864626949403128, tendon_height=8.0, tendon_thickness=1.8695034351433502,
+    chamber_length=3.3, bubble_distance=3.1, inner_fillet=1.65, outer_fillet=0.7,
+    length=21.793383404850957, offset=3.1,
+)  # fmt: skip
+"""Admissible; OCCT 7.8 makes no solid of its fully rounded chambers and channel."""
+
+
+def test_chambers_that_the_cad_kernel_cannot_join_are_refused_with_a_remedy_that_works() -> None:
+    try:
+        whole = full_body(UNJOINED, None)
+    except GeometryError as refusal:
+        assert "change inner_fillet = 1.65 mm to 1.55 mm" in str(refusal)
+        whole = full_body(changed(UNJOINED, inner_fillet=1.55), None)
+    assert whole.solid.isValid() and len(whole.solid.Shells()) == 2
 
 
 @pytest.mark.parametrize("tube", [2.0, 4.0, 6.0])
