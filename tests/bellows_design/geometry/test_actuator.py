@@ -517,7 +517,7 @@ UNJOINED = changed(
     chamber_length=3.3, bubble_distance=3.1, inner_fillet=1.65, outer_fillet=0.7,
     length=21.793383404850957, offset=3.1,
 )  # fmt: skip
-"""Admissible; OCCT 7.8 makes no solid of its fully rounded chambers and channel."""
+"""Admissible; OCCT 7.9 makes no solid of its fully rounded chambers and channel."""
 
 
 def test_chambers_that_the_cad_kernel_cannot_join_are_refused_with_a_remedy_that_works() -> None:
