@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from bellows_design.analysis.computation import Computation, Seconds, SolvedMesh
+from bellows_design.analysis.computation import Body, Computation, Seconds, SolvedMesh
 from bellows_design.analysis.models import FREE_CELL, HALF, UNIT_CELL, AnalysisModel, shortened
 from bellows_design.budget import DEFAULT, Budget
 from bellows_design.design.design import Design
@@ -57,10 +57,11 @@ def started(
     meshing_process.start()  # loads Gmsh while the solid is built
     progress.stage(f"geometry of the {model.name}")
     start = time.perf_counter()
-    solid = model.solid(design)
+    body = Body(design, model)
+    _ = body.solid  # now, so that its time is counted
     spent = Seconds(geometry=time.perf_counter() - start)
     asked = tuple(sorted(pressures))
-    blank = Computation(design, model, reason, solid, asked, budget, seconds=spent)
+    blank = Computation(design, model, reason, body, asked, budget, seconds=spent)
     computation = refined(blank, progress)
     if model is UNIT_CELL and computation.converged:
         return _with_ends(computation, progress)
@@ -95,7 +96,7 @@ def refined(
     solution = _solved_on(mesh, computation, progress)
     spent = Seconds(mesh=meshed - began, solve=time.perf_counter() - meshed)
     if solution.stopped_by == "budget" and computation.solved and computation.converged:
-        return replace(computation, seconds=computation.seconds + spent)
+        return replace(computation, seconds=computation.seconds + spent, out_of_time=True)
     return replace(
         computation,
         solved=(*computation.solved, SolvedMesh(solution, peak_von_mises(solution))),
@@ -107,7 +108,7 @@ def next_plan(computation: Computation) -> PlannedMesh:
     """The mesh after the finest, whatever it takes."""
     from bellows_design.analysis.mesh_plan import finer_plan, first_plan
 
-    solid, design = computation.solid, computation.design
+    solid, design = computation.body.solid, computation.design
     if not computation.solved:
         return first_plan(solid, design)
     return finer_plan(solid, design, computation.finest, computation.model.refinement)
@@ -115,10 +116,15 @@ def next_plan(computation: Computation) -> PlannedMesh:
 
 def affordable_plan(computation: Computation) -> PlannedMesh | None:
     """The mesh after the finest; None without a solution to refine, or beyond the budget."""
-    if not computation.converged or _next_seconds(computation) > computation.seconds_left:
+    if not computation.converged or lacks_time(computation):
         return None
     plan = next_plan(computation)
     return plan if plan.fits(computation.budget) else None
+
+
+def lacks_time(computation: Computation) -> bool:
+    """Whether a solve on the next mesh would take longer than is left of the budget."""
+    return _next_seconds(computation) > computation.seconds_left
 
 
 def _next_seconds(computation: Computation) -> float:
