@@ -39,14 +39,14 @@ def evaluated(
 
     question = (design, model, accuracy_percent, pressures)
     if store is None:
-        return analysis.evaluate(*question, progress, budget, open_question=open_question)
+        return analysis.evaluate(*question, progress, budget=budget, open_question=open_question)
     from bellows_design.store.key import key_of
 
     def kept(further: int, compute: Callable[[], Computed]) -> Evaluation | Computed:
         key = key_of(*question, budget, further)
         return store.find(key, design) or _kept(store, key, compute(), progress)
 
-    first = kept(0, lambda: analysis.evaluate(*question, progress, budget))
+    first = kept(0, lambda: analysis.evaluate(*question, progress, budget=budget))
     meshes = len(first.meshes)
 
     def finer(found: Evaluation, why: str, progress: Progress) -> Evaluation | None:
