@@ -161,7 +161,7 @@ def _with_ends(computation: Computation, progress: Progress) -> Computation:
     the cell without its neighbours stands for the ends, without the stubs of root and tip.
     """
     from bellows_design.analysis.wall_contact import image_gap
-    from bellows_design.geometry.actuator import CAVITY
+    from bellows_design.geometry.face_names import CAVITY
 
     inner = image_gap(computation.finest, CAVITY)
     if inner is not None and inner <= 0:
