@@ -91,51 +91,70 @@ def _locate(
     """Of the elements ``near`` (k, c) each point, the one it is in or least outside of."""
     for p in prange(len(points)):
         best = -np.inf
+        x = np.empty((10, 3))
+        local = np.empty(4)
         for candidate in near[p]:
-            local = _inverse_map(nodes[tets[candidate]], points[p])
-            inside = local.min()
+            for a in range(10):
+                for i in range(3):
+                    x[a, i] = nodes[tets[candidate, a], i]
+            _inverse_map(x, points[p], local)
+            inside = min(local[0], local[1], local[2], local[3])
             if inside > best:
                 best = inside
                 element[p] = candidate
-                barycentric[p] = local
+                for k in range(4):
+                    barycentric[p, k] = local[k]
             if best >= -OUTSIDE:
                 break
 
 
 @njit(cache=True, error_model="numpy")
-def _inverse_map(x: Reals, point: Reals) -> Reals:
-    """Barycentric coordinates (4,) of a point in the ten-node tetrahedron x (10, 3), by Newton."""
-    edge_a = np.array([0, 1, 0, 0, 2, 1])
-    edge_b = np.array([1, 2, 2, 3, 3, 3])
-    local = np.full(4, 0.25)
+def _inverse_map(x: Reals, point: Reals, local: Reals) -> None:
+    """Barycentric coordinates (4,) of a point in the ten-node tetrahedron x (10, 3), by Newton.
+
+    Written element by element, as are all functions here: numba compiles operations on whole arrays
+    for seconds.
+    """
+    edge_a = (0, 1, 0, 0, 2, 1)
+    edge_b = (1, 2, 2, 3, 3, 3)
     slopes = np.empty((4, 3))  # dX / dL_k
+    gap = np.empty(3)
     step = np.empty(3)
+    for k in range(4):
+        local[k] = 0.25
     for _ in range(20):
-        position = np.zeros(3)
-        slopes[:] = 0.0
-        for k in range(4):
-            position += local[k] * (2.0 * local[k] - 1.0) * x[k]
-            slopes[k] += (4.0 * local[k] - 1.0) * x[k]
-        for e in range(6):
-            a, b = edge_a[e], edge_b[e]
-            position += 4.0 * local[a] * local[b] * x[4 + e]
-            slopes[a] += 4.0 * local[b] * x[4 + e]
-            slopes[b] += 4.0 * local[a] * x[4 + e]
-        _solve3(slopes, point - position, step)
-        local[1:] += step
-        local[0] -= step.sum()
+        for i in range(3):
+            position = 0.0
+            for k in range(4):
+                position += local[k] * (2.0 * local[k] - 1.0) * x[k, i]
+                slopes[k, i] = (4.0 * local[k] - 1.0) * x[k, i]
+            for e in range(6):
+                a, b = edge_a[e], edge_b[e]
+                position += 4.0 * local[a] * local[b] * x[4 + e, i]
+                slopes[a, i] += 4.0 * local[b] * x[4 + e, i]
+                slopes[b, i] += 4.0 * local[a] * x[4 + e, i]
+            gap[i] = point[i] - position
+        _solve3(slopes, gap, step)
+        for k in range(3):
+            local[k + 1] += step[k]
+        local[0] -= step[0] + step[1] + step[2]
         largest = max(abs(step[0]), abs(step[1]), abs(step[2]))
         if largest < 1e-10:
-            return local
+            return
         if not largest < 1e3:
             break
-    return np.full(4, -1e3)  # far outside of a curved element: the map has no inverse there
+    for k in range(4):  # far outside of a curved element: the map has no inverse there
+        local[k] = -1e3
 
 
 @njit(cache=True, error_model="numpy")
 def _solve3(slopes: Reals, gap: Reals, step: Reals) -> None:
     """Changes of L1, L2, L3 (3,) that move a point by ``gap`` (3,); ``slopes`` (4, 3) = dX / dL."""
-    a, b, c = slopes[1] - slopes[0], slopes[2] - slopes[0], slopes[3] - slopes[0]
+    sides = np.empty((3, 3))
+    for k in range(3):
+        for i in range(3):
+            sides[k, i] = slopes[k + 1, i] - slopes[0, i]
+    a, b, c = sides[0], sides[1], sides[2]
     determinant = _triple(a, b, c)
     step[0] = _triple(gap, b, c) / determinant
     step[1] = _triple(a, gap, c) / determinant

@@ -31,10 +31,24 @@ class Places(NamedTuple):
 
 
 @compiled()
+def gather(
+    solid: Solid, element: int, displacement: Reals, pressure: Reals, x: Reals, u: Reals, q: Reals
+) -> None:
+    """Coordinates and displacements (10, 3) and pressures (4,) of an element into x, u, q."""
+    for a in range(10):
+        node = solid.tets[element, a]
+        for i in range(3):
+            x[a, i] = solid.nodes[node, i]
+            u[a, i] = displacement[node, i]
+    for v in range(4):
+        q[v] = pressure[solid.tet_vertices[element, v]]
+
+
+@compiled()
 def assemble_chunk(
     solid: Solid,
     places: Places,
-    chunk: int,
+    chunk: int | np.int64,
     displacement: Reals,
     pressure: Reals,
     geometric: Reals,
@@ -51,13 +65,7 @@ def assemble_chunk(
     k = np.empty((UNKNOWNS, UNKNOWNS))
     for position in range(places.chunks[chunk], places.chunks[chunk + 1]):
         element = places.order[position]
-        for a in range(10):
-            node = solid.tets[element, a]
-            for i in range(3):
-                x[a, i] = solid.nodes[node, i]
-                u[a, i] = displacement[node, i]
-        for v in range(4):
-            q[v] = pressure[solid.tet_vertices[element, v]]
+        gather(solid, element, displacement, pressure, x, u, q)
         jacobians[element] = element_response(solid, x, u, q, geometric[element], tangent, r, k)
         scatter(r, k, places.dofs[element], places.entries[element], 1.0, tangent, residual, values)
 
@@ -87,7 +95,7 @@ def assemble(
             assemble_chunk(
                 solid,
                 places,
-                first,
+                np.int64(first),  # the type of c below: another one would be compiled again
                 displacement,
                 pressure,
                 geometric,
@@ -132,22 +140,21 @@ def assemble_plane(
     ``heights`` (n,): h of the nodes on the plane, NaN for all others. ``dofs`` (p, 36) and
     ``entries`` (p, 666) end with the unknowns of the plane.
     """
+    x = np.empty((10, 3))
+    u = np.empty((10, 3))
+    q = np.empty(4)
     own_stress = np.empty((0, 6))
     r = np.empty(UNKNOWNS + 2)
-    k = np.empty((UNKNOWNS + 2, UNKNOWNS + 2))
+    k = np.zeros((UNKNOWNS + 2, UNKNOWNS + 2))
     for row in range(elements.size):
         element = elements[row]
-        nodes = solid.tets[element]
-        r[:] = 0.0
-        k[:, :] = 0.0
-        jacobians[element] = element_response(
-            solid, solid.nodes[nodes], displacement[nodes], pressure[solid.tet_vertices[element]],
-            own_stress, tangent, r[:UNKNOWNS], k[:UNKNOWNS, :UNKNOWNS],
-        )  # fmt: skip
+        gather(solid, element, displacement, pressure, x, u, q)
+        jacobians[element] = element_response(solid, x, u, q, own_stress, tangent, r, k)
         mirror_upper(k)
         for a in range(10):
-            if not np.isnan(heights[nodes[a]]):
-                to_plane_unknowns(r, k, a, heights[nodes[a]], tilt)
+            height = heights[solid.tets[element, a]]
+            if not np.isnan(height):
+                to_plane_unknowns(r, k, a, height, tilt)
         scatter(r, k, dofs[row], entries[row], 1.0, tangent, residual, values)
 
 

@@ -16,13 +16,17 @@ def connected_parts(cells: Integers, size: int) -> Integers:
     Cells (e, m) that share a node belong to one part.
     """
     parent = np.arange(size)
+    used = np.zeros(size, np.bool_)
     for cell in cells:
         root = _root(parent, cell[0])
-        for node in cell[1:]:
+        for node in cell:
             parent[_root(parent, node)] = root
+            used[node] = True
     parts = np.full(size, -1, np.int32)
     count = 0
-    for node in np.unique(cells):
+    for node in range(size):
+        if not used[node]:
+            continue
         root = _root(parent, node)
         if parts[root] < 0:
             parts[root] = count
