@@ -5,7 +5,8 @@ Heavy modules are imported once the input is known to be good.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -24,6 +25,7 @@ from bellows_design.validation.quoting import quoted
 if TYPE_CHECKING:
     from bellows_design.cli.options import BudgetOptions, DesignOptions
     from bellows_design.cli.templates import Kind
+    from bellows_design.progress import Progress
 
 
 def list_designs() -> Answer:
@@ -103,7 +105,6 @@ def evaluate(
 ) -> Answer:
     """Compute the design under ``pressure``, to estimated errors of ``accuracy`` percent."""
     from bellows_design.cli.pressures import parse_pressures
-    from bellows_design.progress import on_stderr
     from bellows_design.reports.evaluation import evaluation_table
 
     require_working_folder()
@@ -116,7 +117,7 @@ def evaluate(
     from bellows_design.store import Store, evaluated
 
     store = Store.usual() if cached else None
-    with on_stderr() as progress:
+    with _solving() as progress:
         found = evaluated(chosen, model, accuracy, pressures, progress, budget, store=store)
         writers = () if vtu is None else (lambda: analysis.write_vtu(found, vtu),)
         failed = unwritten(*writers)
@@ -128,7 +129,6 @@ def evaluate(
 def run(options: DesignOptions, output: Path, limits: BudgetOptions, cached: bool) -> Answer:
     """Take the design through all stages; what is approved is written below ``output``."""
     from bellows_design import pipeline
-    from bellows_design.progress import on_stderr
     from bellows_design.reports.outcome import outcome_table
 
     require_working_folder()
@@ -139,7 +139,7 @@ def run(options: DesignOptions, output: Path, limits: BudgetOptions, cached: boo
     from bellows_design.store import Store
 
     store = Store.usual() if cached else None
-    with on_stderr() as progress:
+    with _solving() as progress:
         outcome = pipeline.run(chosen, output, progress, budget, store)
     refused = REFUSED if outcome.evaluation.converged else NOT_SOLVED
     status = DONE if outcome.verdict.approved else refused
@@ -156,7 +156,6 @@ def benchmark(
 ) -> Answer:
     """Time ``models`` on so many meshes each; write the numbers and a picture if asked."""
     from bellows_design.files.json_files import write_json
-    from bellows_design.progress import on_stderr
     from bellows_design.reports.benchmark import benchmark_tables
     from bellows_design.reports.benchmark_plot import plot_benchmark
 
@@ -169,7 +168,7 @@ def benchmark(
     from bellows_design.benchmark import study as benchmarks
 
     names = models or benchmarks.DEFAULT_MODELS
-    with on_stderr() as progress:
+    with _solving() as progress:
         study = benchmarks.study(chosen, names, meshes, progress, budget=budget)
     content = study.to_dict()
     failed = unwritten(
@@ -178,6 +177,22 @@ def benchmark(
     )
     status = DONE if study.converged else NOT_SOLVED
     return Answer(content, benchmark_tables(study), status, failed)
+
+
+@contextmanager
+def _solving() -> Iterator[Progress]:
+    """Progress on stderr that also tells why the first run takes longer."""
+    from bellows_design.progress import on_stderr
+    from solver.numerics.first_run import told_of_compilation
+
+    def tell(kept: bool) -> None:
+        how_often = (
+            "this once" if kept else "each time, as they cannot be kept: see NUMBA_CACHE_DIR"
+        )
+        progress.note(f"compiling the solver, which may take half a minute, {how_often}")
+
+    with on_stderr() as progress, told_of_compilation(tell):
+        yield progress
 
 
 def cache(clear: bool) -> Answer:

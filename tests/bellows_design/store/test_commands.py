@@ -11,6 +11,7 @@ import pytest
 from kept import LOW_BUBBLES
 
 from bellows_design.analysis.evaluation import Evaluation
+from solver.compilation import njit
 
 Bellows = Callable[..., tuple[int, str, str]]
 SMALL = ("prototype_1", *(word for setting in LOW_BUBBLES for word in ("--set", setting)))
@@ -102,3 +103,22 @@ def test_an_approval_is_the_same_from_a_kept_evaluation(bellows: Bellows, tmp_pa
         manifest.pop("files")  # STEP files bear the time of writing
     assert first == second
     assert b"from_cache" not in manifests[1]
+
+
+def test_the_first_run_says_that_it_compiles_and_how_long_that_takes(
+    bellows: Bellows, monkeypatch: pytest.MonkeyPatch, evaluation: Evaluation
+) -> None:
+    """What is compiled here only calls itself a function of the solver."""
+
+    def kernel(x: float) -> float:
+        return 2 * x
+
+    def evaluate(*_: Any, **__: Any) -> Evaluation:
+        njit()(kernel)(1.0)
+        return evaluation
+
+    kernel.__module__ = "solver.somewhere"
+    monkeypatch.setattr("bellows_design.analysis.evaluate.evaluate", evaluate)
+    status, out, err = bellows("evaluate", *SMALL, "--no-cache", "--json")
+    assert status == 0 and json.loads(out)
+    assert err.count("compiling the solver, which may take half a minute, each time") == 1
