@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from solver.paths.arc_length import Trace, trace
     from solver.paths.limits import Limit
     from solver.paths.load_stepping import solve
+    from solver.paths.neighbouring import Neighbouring, neighbouring
     from solver.paths.volume.control import inflate
     from solver.problem.contacts import Contact, RigidPlane
     from solver.problem.loads import BodyForce, Couple, PointForce, Traction
@@ -49,6 +50,7 @@ __all__ = [
     "FoundationSpring",
     "Limit",
     "Mesh",
+    "Neighbouring",
     "NodeSpring",
     "Ogden",
     "PathPoint",
@@ -69,6 +71,7 @@ __all__ = [
     "contact_forces",
     "folded_elements",
     "inflate",
+    "neighbouring",
     "nodal_cauchy",
     "nodal_von_mises",
     "peak_von_mises",
@@ -95,6 +98,7 @@ __getattr__ = imported_when_asked_for(
         "nonlinear.checkpoint": ("Checkpoint",),
         "nonlinear.finite_motion": ("rotation",),
         "paths.load_stepping": ("solve",),
+        "paths.neighbouring": ("Neighbouring", "neighbouring"),
         "nonlinear.events": ("Event",),
         "nonlinear.options": ("SolverOptions",),
         "paths.volume.control": ("inflate",),

@@ -59,6 +59,10 @@ class LinearSystem:
         self._solver.analyze(assembly.pattern)
         self._analyzed, self.at_hand = assembly.pattern, False
 
+    def forget(self) -> None:
+        """Drop the factorization: it is of a state that led nowhere."""
+        self.at_hand = False
+
     @property
     def name(self) -> str:
         """Name of the linear solver."""

@@ -73,6 +73,7 @@ def neighbouring(
     start = newton.kinematics.start(near.displacement, near.hydrostatic_pressure)
     attempt = _found(newton, start)
     if attempt.failure:
+        newton.system.forget()
         return Neighbouring(None, attempt.failure, newton)
     newton.effort.load_steps += 1
     point = newton.point(attempt.state, 1.0, attempt.iterations, newton.system.stable)
