@@ -116,7 +116,7 @@ def evaluation_of(computation: Computation, state: LoadedState | None = None) ->
         model=computation.model,
         reason=computation.reason,
         meshes=_mesh_readings(computation),
-        solver=_effort(computation.all_solutions),
+        solver=effort(computation.all_solutions),
         seconds=computation.seconds,
         path=path_readings(computation),
         curve=curve_readings(computation),
@@ -224,7 +224,8 @@ def _mesh_readings(computation: Computation) -> tuple[MeshReading, ...]:
     return tuple(MeshReading(size, whole) for size, whole in pairs)
 
 
-def _effort(solutions: Sequence[Solution]) -> SolverEffort:
+def effort(solutions: Sequence[Solution]) -> SolverEffort:
+    """What solves took together."""
     return SolverEffort(
         load_steps=sum(solution.load_steps for solution in solutions),
         newton_iterations=sum(solution.newton_iterations for solution in solutions),

@@ -1,0 +1,85 @@
+"""How far designs are apart, and designs in between."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from bellows_design.design.design import Design
+
+WITHOUT_EFFECT = {"length", "offset", "number_of_bubbles"}
+"""Numbers of the bellows that change an actuator of so many bubbles at its ends only."""
+
+LAW = ("model", "mu", "alpha", "higher", "constants")
+"""What of a material decides how it deforms."""
+
+
+def distance(one: Design, other: Design) -> float:
+    """Largest relative difference of two designs' numbers; infinite where other things differ.
+
+    Port, printer and limits do not count, nor do lengths of the actuator's ends.
+    """
+    ours, theirs = _numbers(one), _numbers(other)
+    if ours.keys() != theirs.keys():
+        return float("inf")
+    return max(_apart(value, theirs[name]) for name, value in ours.items())
+
+
+def between(one: Design, other: Design, share: float) -> Design:
+    """The design at ``share`` of the straight way from one design to another of the same kind.
+
+    Raises ``DesignError`` if the numbers there describe no solid.
+    """
+    ours, theirs = _table(one), _table(other)
+    return Design.of(theirs | {key: _mixed(ours[key], theirs[key], share) for key in MIXED})
+
+
+MIXED = ("bellows", "indent", "material", "load")
+"""Tables of a design that decide its angle and stress."""
+
+
+def _table(design: Design) -> dict[str, Any]:
+    return design.model_dump(mode="json")
+
+
+def _mixed(one: Any, other: Any, share: float) -> Any:
+    """Numbers at ``share`` of the way; whole numbers, texts and missing values of ``other``."""
+    if isinstance(one, Mapping) and isinstance(other, Mapping):
+        return {key: _mixed(one.get(key), value, share) for key, value in other.items()}
+    if isinstance(one, list) and isinstance(other, list) and len(one) == len(other):
+        return [_mixed(a, b, share) for a, b in zip(one, other, strict=True)]
+    if isinstance(one, float) and isinstance(other, float):
+        return one + share * (other - one)
+    return other
+
+
+def _numbers(design: Design) -> dict[str, Any]:
+    """What decides angle and stress, by dotted name."""
+    table = _table(design)
+    counting = {
+        "bellows": {k: v for k, v in table["bellows"].items() if k not in WITHOUT_EFFECT},
+        "indent": table["indent"],
+        "material": {key: table["material"][key] for key in LAW},
+        "load": table["load"],
+    }
+    return dict(_flat("", counting))
+
+
+def _flat(name: str, content: Any) -> Iterator[tuple[str, Any]]:
+    if isinstance(content, Mapping):
+        for key, value in content.items():
+            yield from _flat(f"{name}.{key}", value)
+    elif isinstance(content, list):
+        for index, value in enumerate(content):
+            yield from _flat(f"{name}.{index}", value)
+    else:
+        yield name, content
+
+
+def _apart(one: Any, other: Any) -> float:
+    """Relative difference of two numbers; 0 or infinite for other values."""
+    if one == other:
+        return 0.0
+    if not (isinstance(one, float) and isinstance(other, float)):
+        return float("inf")
+    return abs(one - other) / max(abs(one), abs(other))
