@@ -5,9 +5,9 @@ pressure, the highest von Mises stress keeps its limit *including its estimated 
 material is not strained beyond its elongation at break. Where the error reaches across the limit
 nothing is decided: the answer is no, and the remedy is a finer mesh, not another design. A result
 that walls run through each other in, elements that fold at the highest stress, a missing rule or
-error estimate, or a result that depends on another design's, are never taken for a pass. Strains outside of the range the material was tested in
-are a warning: the range is that of the tests, not of the material. What cannot be judged is listed,
-with the reason.
+error estimate, or a result that depends on another design's, are never taken for a pass. Strains
+outside of the range the material was tested in are a warning: the range is that of the tests, not
+of the material. What cannot be judged is listed, with the reason.
 """
 
 from __future__ import annotations
