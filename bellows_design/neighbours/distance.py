@@ -1,4 +1,4 @@
-"""How far designs are apart, and designs in between."""
+"""How far designs are apart."""
 
 from __future__ import annotations
 
@@ -25,37 +25,9 @@ def distance(one: Design, other: Design) -> float:
     return max(_apart(value, theirs[name]) for name, value in ours.items())
 
 
-def between(one: Design, other: Design, share: float) -> Design:
-    """The design at ``share`` of the straight way from one design to another of the same kind.
-
-    Raises ``DesignError`` if the numbers there describe no solid.
-    """
-    ours, theirs = _table(one), _table(other)
-    return Design.of(theirs | {key: _mixed(ours[key], theirs[key], share) for key in MIXED})
-
-
-MIXED = ("bellows", "indent", "material", "load")
-"""Tables of a design that decide its angle and stress."""
-
-
-def _table(design: Design) -> dict[str, Any]:
-    return design.model_dump(mode="json")
-
-
-def _mixed(one: Any, other: Any, share: float) -> Any:
-    """Numbers at ``share`` of the way; whole numbers, texts and missing values of ``other``."""
-    if isinstance(one, Mapping) and isinstance(other, Mapping):
-        return {key: _mixed(one.get(key), value, share) for key, value in other.items()}
-    if isinstance(one, list) and isinstance(other, list) and len(one) == len(other):
-        return [_mixed(a, b, share) for a, b in zip(one, other, strict=True)]
-    if isinstance(one, float) and isinstance(other, float):
-        return one + share * (other - one)
-    return other
-
-
 def _numbers(design: Design) -> dict[str, Any]:
     """What decides angle and stress, by dotted name."""
-    table = _table(design)
+    table = design.model_dump(mode="json")
     counting = {
         "bellows": {k: v for k, v in table["bellows"].items() if k not in WITHOUT_EFFECT},
         "indent": table["indent"],

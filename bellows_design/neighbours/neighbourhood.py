@@ -11,9 +11,11 @@ from bellows_design.analysis.evaluate import effort, evaluate, loaded_state, mes
 from bellows_design.analysis.evaluation import Evaluation, LoadedState
 from bellows_design.budget import DEFAULT, Budget
 from bellows_design.design.design import Design
+from bellows_design.design.variation import between
 from bellows_design.errors import BellowsError, DesignError
 from bellows_design.neighbours.carried import REACH, Carried
-from bellows_design.neighbours.distance import between, distance
+from bellows_design.neighbours.distance import distance
+from bellows_design.neighbours.equilibrium import Equilibrium
 from bellows_design.neighbours.record import NeighbourEvaluation
 from bellows_design.progress import SILENCE, Progress
 
@@ -100,6 +102,19 @@ class Neighbourhood:
             return ordinary(design, self.anchor.model.name, str(reason), progress, budget)
         self._solved = [*self._solved, *way.solved][-MOST_STATES:]
         return replace(found, seconds=Seconds(solve=time.perf_counter() - began))
+
+    def equilibrium(self, found: NeighbourEvaluation) -> Equilibrium:
+        """What the sensitivities of one of its results are taken from."""
+        newton, solution = self._newton, found.solution
+        at_hand = newton is not None and newton.problem is solution.problem
+        return Equilibrium(
+            found.design,
+            self.anchor.model,
+            solution,
+            self._morpher,
+            self._carried,
+            newton if at_hand else None,
+        )
 
     def distance(self, design: Design) -> float:
         """How far a design is from that of the ordinary evaluation; infinite if no neighbour."""
