@@ -37,6 +37,10 @@ if TYPE_CHECKING:
     from solver.results.stress import Peak, nodal_cauchy, nodal_von_mises, peak_von_mises
     from solver.results.vtu import write_vtu
     from solver.results.work import Work, work
+    from solver.sensitivity.gradients import Gradients, ResponseGradient, gradients
+    from solver.sensitivity.materials import constant_changes, material_derivatives
+    from solver.sensitivity.sensitivities import Sensitivities, sensitivities
+    from solver.sensitivity.smooth_peak import SmoothPeak
 
 __all__ = [
     "BodyForce",
@@ -47,6 +51,7 @@ __all__ = [
     "Event",
     "Folds",
     "FoundationSpring",
+    "Gradients",
     "Limit",
     "Mesh",
     "NodeSpring",
@@ -57,8 +62,11 @@ __all__ = [
     "Potential",
     "Problem",
     "Reaction",
+    "ResponseGradient",
     "RigidPlane",
+    "Sensitivities",
     "SlenderAxis",
+    "SmoothPeak",
     "Solution",
     "SolverOptions",
     "Supports",
@@ -66,15 +74,19 @@ __all__ = [
     "Traction",
     "Work",
     "cavity_volume",
+    "constant_changes",
     "contact_forces",
     "folded_elements",
+    "gradients",
     "inflate",
+    "material_derivatives",
     "nodal_cauchy",
     "nodal_von_mises",
     "peak_von_mises",
     "potential",
     "reaction",
     "rotation",
+    "sensitivities",
     "solve",
     "strain_energy",
     "trace",
@@ -110,6 +122,10 @@ __getattr__ = imported_when_asked_for(
         "results.solution": ("PathPoint", "Solution", "cavity_volume", "folded_elements"),
         "results.vtu": ("write_vtu",),
         "results.work": ("Work", "work"),
+        "sensitivity.gradients": ("Gradients", "ResponseGradient", "gradients"),
+        "sensitivity.materials": ("constant_changes", "material_derivatives"),
+        "sensitivity.sensitivities": ("Sensitivities", "sensitivities"),
+        "sensitivity.smooth_peak": ("SmoothPeak",),
         "results.stress": ("Peak", "nodal_cauchy", "nodal_von_mises", "peak_von_mises"),
     },
 )
