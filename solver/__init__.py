@@ -38,6 +38,10 @@ if TYPE_CHECKING:
     from solver.results.stress import Peak, nodal_cauchy, nodal_von_mises, peak_von_mises
     from solver.results.vtu import write_vtu
     from solver.results.work import Work, work
+    from solver.sensitivity.gradients import Gradients, ResponseGradient, gradients
+    from solver.sensitivity.materials import constant_changes, material_derivatives
+    from solver.sensitivity.sensitivities import Sensitivities, sensitivities
+    from solver.sensitivity.smooth_peak import SmoothPeak
 
 __all__ = [
     "BodyForce",
@@ -48,6 +52,7 @@ __all__ = [
     "Event",
     "Folds",
     "FoundationSpring",
+    "Gradients",
     "Limit",
     "Mesh",
     "Neighbouring",
@@ -59,8 +64,11 @@ __all__ = [
     "Potential",
     "Problem",
     "Reaction",
+    "ResponseGradient",
     "RigidPlane",
+    "Sensitivities",
     "SlenderAxis",
+    "SmoothPeak",
     "Solution",
     "SolverOptions",
     "Supports",
@@ -68,9 +76,12 @@ __all__ = [
     "Traction",
     "Work",
     "cavity_volume",
+    "constant_changes",
     "contact_forces",
     "folded_elements",
+    "gradients",
     "inflate",
+    "material_derivatives",
     "neighbouring",
     "nodal_cauchy",
     "nodal_von_mises",
@@ -78,6 +89,7 @@ __all__ = [
     "potential",
     "reaction",
     "rotation",
+    "sensitivities",
     "solve",
     "strain_energy",
     "trace",
@@ -114,6 +126,10 @@ __getattr__ = imported_when_asked_for(
         "results.solution": ("PathPoint", "Solution", "cavity_volume", "folded_elements"),
         "results.vtu": ("write_vtu",),
         "results.work": ("Work", "work"),
+        "sensitivity.gradients": ("Gradients", "ResponseGradient", "gradients"),
+        "sensitivity.materials": ("constant_changes", "material_derivatives"),
+        "sensitivity.sensitivities": ("Sensitivities", "sensitivities"),
+        "sensitivity.smooth_peak": ("SmoothPeak",),
         "results.stress": ("Peak", "nodal_cauchy", "nodal_von_mises", "peak_von_mises"),
     },
 )

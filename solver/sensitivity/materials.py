@@ -1,0 +1,147 @@
+"""Derivatives by the constants of a material, as small changes of it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import fields, replace
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from solver.assembly.assembly import solid
+from solver.errors import SolverError
+from solver.input_types import shown
+from solver.kernels.element import Solid
+from solver.material.law import Hyperelastic
+from solver.problem.problem import Problem
+from solver.sensitivity.contact_work import contact_work
+from solver.sensitivity.gradients import Gradients
+from solver.sensitivity.responses import PEAK
+from solver.sensitivity.work import solid_residual
+
+MaterialChange: TypeAlias = tuple[Hyperelastic, Hyperelastic, float]
+"""Two materials beside the problem's, ahead and behind, and the parameter's step between them."""
+
+STEP = 1e-4
+"""Of a constant, relative; of those that may be zero at least this times the shear modulus, or of
+an exponent times one."""
+
+
+def constant_changes(material: Hyperelastic) -> dict[str, MaterialChange]:
+    """Changes of each constant of a material, by name: ``mu_1``, ``alpha_1``, ``c10``, ...
+
+    Args:
+        material: of a law in the table of laws.
+
+    Returns:
+        name -> materials ahead and behind, and the difference of the constant between them. The
+        bulk modulus is among them if it is finite.
+    """
+    changes: dict[str, MaterialChange] = {}
+    for each in fields(material):  # type: ignore[arg-type]
+        value = getattr(material, each.name)
+        if isinstance(value, tuple):
+            for k in range(len(value)):
+                changes[f"{each.name}_{k + 1}"] = _change(material, each.name, k)
+        elif isinstance(value, float | int) and np.isfinite(value):
+            changes[each.name] = _change(material, each.name, None)
+    return changes
+
+
+def material_derivatives(
+    found: Gradients, changes: Mapping[str, MaterialChange]
+) -> dict[str, dict[str, float]]:
+    """Derivatives of all responses by changes of the material.
+
+    Args:
+        found: gradients at an equilibrium.
+        changes: parameter -> (material ahead, material behind, step between them), the problem's
+            material in the middle.
+
+    Returns:
+        response -> parameter -> derivative.
+
+    Raises:
+        SolverError: anything but two materials and a step other than zero.
+    """
+    columns = {name: _by_material(found, *_checked(name, each)) for name, each in changes.items()}
+    return {
+        response: {name: column[response] for name, column in columns.items()}
+        for response in found.responses
+    }
+
+
+def _by_material(
+    found: Gradients, ahead: Hyperelastic, behind: Hyperelastic, step: float
+) -> dict[str, float]:
+    """Response -> derivative: the work of a difference of forces, and the stress's own change."""
+    at, problem = found.at, found.solution.problem
+    (there, stretched), (back, compressed) = (
+        solid_residual(at, of_material(problem, each)) for each in (ahead, behind)
+    )
+    forces, violations = there - back, stretched - compressed
+    stiffer = (ahead.shear_modulus - behind.shear_modulus) / problem.material.shear_modulus
+    derivatives = {}
+    for name, each in found.responses.items():
+        adjoint = each.adjoint
+        work = float((forces * adjoint.displacement).sum())
+        work += float(violations @ adjoint.hydrostatic_pressure)
+        if problem.contacts:  # their stiffness is in proportion to the material's
+            work += stiffer * contact_work(problem, at.state, at.load, adjoint)
+        own = _own_change(found, ahead, behind) if name == PEAK else 0.0
+        derivatives[name] = (own - work) / step
+    return derivatives
+
+
+def _own_change(found: Gradients, ahead: Hyperelastic, behind: Hyperelastic) -> float:
+    """Difference of the smooth peak at the same displacements, MPa."""
+    region, displacement = found.region, found.solution.displacement
+    there, back = (
+        region.value(_with_law(region.body, each), displacement) for each in (ahead, behind)
+    )
+    return there - back
+
+
+def of_material(problem: Problem, material: Hyperelastic) -> Solid:
+    """The problem's body of another material."""
+    return _with_law(solid(problem), material)
+
+
+def _with_law(body: Solid, material: Hyperelastic) -> Solid:
+    constants = material.constants
+    return body._replace(
+        law=constants.number,
+        constants=constants.values,
+        compliance=material.compliance,
+        logarithmic=material.volumetric == "logarithmic",
+    )
+
+
+def _change(material: Hyperelastic, name: str, place: int | None) -> MaterialChange:
+    """Central change of a constant, or of one of several."""
+    whole: Any = getattr(material, name)
+    value = whole if place is None else whole[place]
+    unit = {"mu": 0.0, "bulk_modulus": 0.0, "alpha": 1.0}.get(name, material.shear_modulus)
+    step = STEP * max(abs(value), unit)
+
+    def changed(by: float) -> Hyperelastic:
+        new = value + by
+        if place is not None:
+            new = (*whole[:place], new, *whole[place + 1 :])
+        return replace(material, **{name: new})  # type: ignore[type-var]
+
+    return changed(step), changed(-step), 2 * step
+
+
+def _checked(name: str, given: MaterialChange) -> MaterialChange:
+    """A change. Raises ``SolverError`` unless it is two materials and a step."""
+    usable = isinstance(given, tuple) and len(given) == 3
+    usable = usable and all(isinstance(each, Hyperelastic) for each in given[:2])
+    if not usable or not isinstance(given[2], float | int) or not np.isfinite(given[2]):
+        raise SolverError(
+            f"sensitivities: the change of {name!r} must be two materials and the step between "
+            f"them, got {shown(given)}."
+        )
+    if given[2] == 0:
+        raise SolverError(f"sensitivities: the step of {name!r} between materials must not be 0.")
+    return given

@@ -1,0 +1,142 @@
+"""Virtual work of a body along a direction, and its derivatives by the nodes' positions.
+
+The work of all forces along the direction of an adjoint is the adjoint times the residual. Its
+parts are the solid's (``solver.kernels.shape_derivatives``), the pressure's, those of contacts,
+springs and dead loads.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from solver.arrays import Reals
+from solver.assembly.assembly import NO_SUPPORTS, Assembly, solid
+from solver.assembly.colouring import chunks
+from solver.assembly.contact import contact_pairs
+from solver.assembly.state import State
+from solver.kernels.assembly import Places, assemble
+from solver.kernels.element import Solid
+from solver.kernels.shape_derivatives import work_derivatives
+from solver.problem.unknowns import number_unknowns
+from solver.sensitivity.contact_work import contact_derivatives
+from solver.sensitivity.load_work import load_derivative, spring_derivative
+from solver.sensitivity.surface_integrals import (
+    at_points,
+    flux_derivative,
+    summed,
+    volume_curvature,
+    volume_derivative,
+)
+from solver.sensitivity.unknowns import Direction
+
+
+@dataclass(frozen=True)
+class Derivatives:
+    """Of a scalar: ``by_position`` at fixed displacements, and ``by_displacement``, (n, 3)."""
+
+    by_position: Reals
+    by_displacement: Reals
+
+    def __add__(self, other: Derivatives) -> Derivatives:
+        return Derivatives(
+            self.by_position + other.by_position, self.by_displacement + other.by_displacement
+        )
+
+    def __sub__(self, other: Derivatives) -> Derivatives:
+        return Derivatives(
+            self.by_position - other.by_position, self.by_displacement - other.by_displacement
+        )
+
+
+@dataclass(frozen=True)
+class Equilibrated:
+    """What a virtual work is taken of: a state under a ``pressure`` (MPa) and dead loads."""
+
+    assembly: Assembly
+    state: State
+    pressure: float
+    load: float
+
+    @property
+    def positions(self) -> Reals:
+        """Of the deformed nodes, (n, 3), mm."""
+        positions: Reals = self.assembly.problem.mesh.nodes + self.state.displacement
+        return positions
+
+
+def work_gradient(at: Equilibrated, direction: Direction) -> Derivatives:
+    """Derivatives of the work along a direction that keeps its displacements."""
+    solid_part = _solid(at, direction)
+    through_positions = _pressure(at, direction)
+    both = solid_part + Derivatives(through_positions, through_positions)
+    problem = at.assembly.problem
+    if problem.contacts:
+        both = both + Derivatives(*contact_derivatives(problem, at.state, at.load, direction))
+    if at.assembly.springs is not None:
+        both = both + Derivatives(
+            spring_derivative(problem, at.state.displacement, direction.displacement),
+            at.assembly.springs.forces(direction.displacement),
+        )
+    if problem.loads:
+        dead = at.load * load_derivative(problem, direction.displacement)
+        both = both - Derivatives(dead, np.zeros_like(dead))
+    return both
+
+
+def _solid(at: Equilibrated, direction: Direction) -> Derivatives:
+    problem, state = at.assembly.problem, at.state
+    tets = problem.mesh.tets
+    by_position, by_displacement = np.empty((2, *tets.shape, 3))
+    work_derivatives(
+        solid(problem), np.ascontiguousarray(state.displacement), state.hydrostatic_pressure,
+        direction.displacement, direction.hydrostatic_pressure, by_position, by_displacement,
+    )  # fmt: skip
+    size = len(problem.mesh.nodes)
+    return Derivatives(summed(size, tets, by_position), summed(size, tets, by_displacement))
+
+
+def _pressure(at: Equilibrated, direction: Direction) -> Reals:
+    """Derivative (n, 3) of the pressure's part by deformed positions.
+
+    With a moving plane, as for its force, minus that of the pressure times the enclosed volume.
+    """
+    problem = at.assembly.problem
+    triangles, along = problem.mesh.triangles(*problem.pressurised), direction.displacement
+    if problem.moving_plane is not None:
+        return -at.pressure * volume_curvature(at.positions, triangles, along)
+    field = at.pressure * at_points(along, triangles)
+    return flux_derivative(at.positions, triangles, field)
+
+
+def plane_forces(at: Equilibrated) -> Reals:
+    """Nodal forces (n, 3) in the residual of a body with a moving plane, N.
+
+    They balance at all nodes but the plane's, where the unknowns are others.
+    """
+    problem = at.assembly.problem
+    triangles = problem.mesh.triangles(*problem.pressurised)
+    forces, _ = solid_residual(at, solid(problem))
+    forces -= at.pressure * volume_derivative(at.positions, triangles)
+    for pair in contact_pairs(problem):
+        forces -= pair.forces(at.state, at.load)
+    return forces
+
+
+def solid_residual(at: Equilibrated, body: Solid) -> tuple[Reals, Reals]:
+    """Internal forces (n, 3), N, and constraint violations (v,), mm^3, of a ``body`` at a state.
+
+    The body has the state's mesh and any material.
+    """
+    mesh = at.assembly.problem.mesh
+    everything = number_unknowns(mesh, NO_SUPPORTS)
+    dofs = everything.of_tets(mesh)
+    places = Places(*chunks(mesh), dofs, np.empty((len(dofs), 0), np.int32))
+    residual = np.zeros(everything.size)
+    assemble(
+        body, places, np.ascontiguousarray(at.state.displacement), at.state.hydrostatic_pressure,
+        np.empty((len(mesh.tets), 0, 6)), False, residual, np.zeros(0), np.empty(len(mesh.tets)),
+    )  # fmt: skip
+    forces, violations, _ = everything.expand(residual)
+    return forces, violations
