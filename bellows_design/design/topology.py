@@ -33,9 +33,7 @@ def same_topology(own: Design, other: Design) -> str:
         if here != there:
             return f"{what}: {there} instead of {here}"
     before, after = signature(own), signature(other)
-    return next(
-        (_change(name, before, after) for name in before if _differs(name, before, after)), ""
-    )
+    return next((_change(name, before, after) for name in before if _differs(name, before, after)), "")
 
 
 def signature(design: Design) -> dict[str, float]:

@@ -61,12 +61,13 @@ def on_surfaces(boxes: Boxes, points: Reals) -> NDArray[np.bool_]:
     """
     count = len(points)
     distance = np.stack(
-        [signed_distances(boxes, np.full(count, box), points) for box in range(len(boxes.radius))],
+        [
+            signed_distances(boxes, np.full(count, box), points)
+            for box in range(len(boxes.radius))
+        ],
         axis=1,
     )
-    within = np.stack(
-        [(distance < -TOLERANCE)[:, boxes.role == role].any(axis=1) for role in (SOLID, AIR)]
-    )
+    within = np.stack([(distance < -TOLERANCE)[:, boxes.role == role].any(axis=1) for role in (SOLID, AIR)])
     hidden = np.where(boxes.role == SOLID, within[0][:, None], within[1][:, None])
     return (np.abs(distance) < TOLERANCE) & ~hidden
 

@@ -19,7 +19,9 @@ def signed_distances(boxes: Boxes, chosen: Integers, points: Reals) -> Reals:
     return outside + np.minimum(beyond.max(axis=1), 0.0) - boxes.radius[chosen]
 
 
-def distances_and_normals(boxes: Boxes, chosen: Integers, points: Reals) -> tuple[Reals, Reals]:
+def distances_and_normals(
+    boxes: Boxes, chosen: Integers, points: Reals
+) -> tuple[Reals, Reals]:
     """Signed distances (k,) as above, mm, and their gradients (k, 3) for points outside of cores.
 
     Inside of a core the gradient is that of its nearest plane.

@@ -43,9 +43,7 @@ class Extension:
         return pulled
 
 
-def extension(
-    stiffness: csr_matrix, known: NDArray[np.bool_], among: NDArray[np.bool_]
-) -> Extension:
+def extension(stiffness: csr_matrix, known: NDArray[np.bool_], among: NDArray[np.bool_]) -> Extension:
     """Harmonic extension from points ``known`` (n,) to the others ``among`` (n,) them.
 
     ``stiffness`` (n, n) is symmetric and positive semidefinite.
@@ -53,9 +51,7 @@ def extension(
     fixed, free = np.flatnonzero(known), np.flatnonzero(among & ~known)
     rows = stiffness[free]
     solve: Any = (
-        splu(
-            csc_matrix(rows[:, free]), permc_spec="MMD_AT_PLUS_A", options={"SymmetricMode": True}
-        ).solve
+        splu(csc_matrix(rows[:, free]), permc_spec="MMD_AT_PLUS_A", options={"SymmetricMode": True}).solve
         if len(free)
         else np.asarray
     )

@@ -96,7 +96,9 @@ def _ends(triangles: NDArray[np.int64], count: int) -> NDArray[np.int64]:
     return ends
 
 
-def _unrelaxed(boxes: Boxes, given: Reals, ends: NDArray[np.int64]) -> tuple[Reals, Reals, Places]:
+def _unrelaxed(
+    boxes: Boxes, given: Reals, ends: NDArray[np.int64]
+) -> tuple[Reals, Reals, Places]:
     """Points where they would lie without unfolding, their shares, and their places.
 
     Unfolding halves a mid-node's distance from the straight edge again and again, so doubling it
