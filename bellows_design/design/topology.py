@@ -20,9 +20,6 @@ NOTHING = 1e-9
 CHAMBER_FILLET, CHANNEL_FILLET = "the chamber's fillet", "the channel's fillet"
 INNER_DEPTH = "the indent's depth beyond its fillet"
 FLOORS = "the channel's floor above the chamber's"
-FILLETS_AT_THE_CHAMBER_FILLET, CHANNEL_FILLET = "the chamber's fillet", "the channel's fillet"
-INNER_DEPTH = "the indent's depth beyond its fillet"
-FLOORS = "the channel's floor above the chamber's"
 FILLETS_AT_THE_FLOORS = "the top of the channel's lower fillet above that of the chamber's"
 LEVEL = (FLOORS, FILLETS_AT_THE_FLOORS)
 """Lengths that may leave zero: floors that are level keep their faces when one is moved a little,

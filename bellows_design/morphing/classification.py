@@ -105,8 +105,7 @@ def classified(boxes: Boxes, points: Reals) -> Places:
     pins = _pins(boxes, points, on)
     curved = _curved(boxes, points, on, pins < 0)
     level = np.minimum((pins >= 0).sum(axis=1) + (curved[:, :, 0] >= 0).sum(axis=1), 3)
-    if boxes.level_floors:
-        _add_other_hollows(boxes, points, curved)
+    _add_other_hollows(boxes, points, curved)
     return Places(pins, on & (boxes.radius > 0), curved, level)
 
 
@@ -149,11 +148,16 @@ def _curved(boxes: Boxes, points: Reals, on: NDArray[np.bool_], free: NDArray[np
 
 
 def _add_other_hollows(boxes: Boxes, points: Reals, curved: Indices) -> None:
-    """Let the outer one of its box and the nearest other hollow hold a point of a single hollow."""
+    """Let the outer one of its box and the nearest other hollow hold a point of a single hollow.
+
+    So that a point which comes to lie inside of the other one moves onto the surface of both.
+    """
     first = curved[:, 0, 0]
     single = (first >= 0) & (curved[:, 0, 1] < 0) & (curved[:, 1, 0] < 0)
     rows = np.flatnonzero(single & (boxes.role[first] == AIR))
     hollows = np.flatnonzero((boxes.role == AIR) & (boxes.radius > 0))
+    if len(hollows) < 2:
+        return
     distance = np.stack(
         [signed_distances(boxes, np.full(len(rows), box), points[rows]) for box in hollows], axis=1
     )

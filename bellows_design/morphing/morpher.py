@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -110,30 +111,36 @@ class Morpher:
             raise NoNeighbour(f"a node of the mesh misses the body's surfaces by {missed:.2g} mm")
         return points
 
-    def boundary_velocity(self, parameter: str) -> Reals:
+    def boundary_velocity(self, parameter: str, at: Design | None = None) -> Reals:
         """Derivative of the surface's nodes by a geometric parameter (n, 3), per mm; else zero.
 
         Fillets that are full rounds follow the parameter. At a bound of the parameter the
         derivative is one-sided; for parameters that ``variation.kinked`` names it is the mean of
         both sides.
 
+        Args:
+            parameter: One of ``variation.geometric_parameters``.
+            at: The design whose mesh moves; by default the own one.
+
         Raises:
             DesignError: there is no such parameter, or it can be moved neither way.
+            NoNeighbour: ``at`` has other faces than the own design.
         """
-        design = counted(self.design)
-        here = self.mesh.nodes[self.skin.nodes]
+        design = counted(at or self.design)
         ahead, behind = (self._beside(design, parameter, step) for step in (STEP, -STEP))
         if ahead is None and behind is None:
             raise DesignError(f"{parameter} can be moved neither way by {STEP:g} mm.")
         sides = 2 - (ahead is None) - (behind is None)
+        if sides == 1:
+            here = self.boundary_of(design)
+            ahead, behind = (here if side is None else side for side in (ahead, behind))
         velocity = np.zeros_like(self.mesh.nodes)
-        upper, lower = (here if side is None else side for side in (ahead, behind))
-        velocity[self.skin.nodes] = (upper - lower) / (sides * STEP)
+        velocity[self.skin.nodes] = (ahead - behind) / (sides * STEP)
         return velocity
 
-    def velocity(self, parameter: str) -> Reals:
-        """Derivative of all nodes by a geometric parameter (n, 3), per mm; as of the surface's."""
-        return self.interior.extended(self.boundary_velocity(parameter))
+    def velocity(self, parameter: str, at: Design | None = None) -> Reals:
+        """Derivative of all nodes by a geometric parameter (n, 3), per mm, as of the surface's."""
+        return self.interior.extended(self.boundary_velocity(parameter, at))
 
     def pulled_back(self, gradient: Reals) -> Reals:
         """Derivatives by the surface's nodes (n, 3) of a function with ``gradient`` (n, 3) by all.
@@ -143,7 +150,7 @@ class Morpher:
         """
         return self.interior.transposed(gradient)
 
-    def _beside(self, design: Design, parameter: str, step: float) -> Reals | None:
+    def _beside(self, design: Design, parameter: str, step: float) -> Any:
         """The surface's nodes with a parameter so much larger; None if that is no neighbour."""
         values = geometric_parameters(design)
         if parameter not in values:
