@@ -17,6 +17,8 @@ from bellows_design.design.lengths import SMALLEST_FEATURE, snapped_radius
 NOTHING = 1e-9
 """mm. Lengths shorter than this are zero but for rounding."""
 
+CHAMBER_FILLET, CHANNEL_FILLET = "the chamber's fillet", "the channel's fillet"
+INNER_DEPTH = "the indent's depth beyond its fillet"
 FLOORS = "the channel's floor above the chamber's"
 FILLETS_AT_THE_FLOORS = "the top of the channel's lower fillet above that of the chamber's"
 LEVEL = (FLOORS, FILLETS_AT_THE_FLOORS)
@@ -24,23 +26,28 @@ LEVEL = (FLOORS, FILLETS_AT_THE_FLOORS)
 but for a step lower than the elements beside it, which runs through these."""
 
 
-def same_topology(own: Design, other: Design) -> str:
-    """Why the body of ``other`` has not the faces of ``own``, so that no mesh fits both; or ''."""
+def same_topology(own: Design, other: Design, model: str = "full") -> str:
+    """Why the body of ``other`` has not the faces of ``own``, so that no mesh fits both; or ''.
+
+    Of a ``unit-cell`` the faces at root and tip are left out; the number of bubbles never is.
+    """
     for what, here, there in (
         ("bubbles", own.bellows.bubble_count, other.bellows.bubble_count),
         ("indent", _kind(own.indent), _kind(other.indent)),
     ):
         if here != there:
             return f"{what}: {there} instead of {here}"
-    before, after = signature(own), signature(other)
-    return next((_change(name, before, after) for name in before if _differs(name, before, after)), "")
+    before, after = signature(own, model), signature(other, model)
+    changes = (_change(n, before, after) for n in before if _differs(n, before, after))
+    return next(changes, "")
 
 
-def signature(design: Design) -> dict[str, float]:
+def signature(design: Design, model: str = "full") -> dict[str, float]:
     """The lengths whose signs tell the faces, mm, each by what it is."""
     bellows, indent = design.bellows, design.indent
     lengths = dict(_rounds(bellows)) | dict(_outside(bellows)) | dict(_inside(bellows))
-    lengths |= dict(_ends(bellows))
+    if model != "unit-cell":
+        lengths |= dict(_ends(bellows))
     if indent is not None:
         groove = _outer_groove if indent.side == "outside" else _inner_groove
         lengths |= dict(groove(bellows, indent))
@@ -57,7 +64,7 @@ def _sign(length: float) -> int:
 
 def _differs(name: str, before: Mapping[str, float], after: Mapping[str, float]) -> bool:
     sign = _sign(before[name])
-    return sign != _sign(after[name]) and not (sign == 0 and name in LEVEL)
+    return name not in after or (sign != _sign(after[name]) and not (sign == 0 and name in LEVEL))
 
 
 def _change(name: str, before: Mapping[str, float], after: Mapping[str, float]) -> str:
@@ -67,8 +74,8 @@ def _change(name: str, before: Mapping[str, float], after: Mapping[str, float]) 
 def _rounds(p: BellowsParameters) -> Iterator[tuple[str, float]]:
     """Fillets, and the flats between them."""
     r, q, outer = p.chamber_fillet, p.channel_fillet, p.bubble_fillet
-    yield "the chamber's fillet", r
-    yield "the channel's fillet", q
+    yield CHAMBER_FILLET, r
+    yield CHANNEL_FILLET, q
     yield "the bubble's fillet", outer
     for axis, size in zip("xyz", p.chamber_size, strict=True):
         yield f"flat between the chamber's fillets along {axis}", size / 2 - r
@@ -149,7 +156,7 @@ def _inner_groove(p: BellowsParameters, indent: Indent) -> Iterator[tuple[str, f
     yield "the indent inside of the chamber's fillet", along - r
     yield "the indent's floor inside of the chamber's fillet", along - r + f
     yield "the chamber's fillet above a line's width", r - SMALLEST_FEATURE
-    yield "the indent's depth beyond its fillet", indent.depth - f
+    yield INNER_DEPTH, indent.depth - f
     across = size[1] / 2 - p.channel_width / 2
     yield "the indent's side beyond the channel's", across
     yield "the indent's side beyond the channel's floor", across + q

@@ -14,13 +14,15 @@ from bellows_design.design.bellows_parameters import BellowsParameters
 from bellows_design.design.design import Design
 from bellows_design.design.indent import Indent
 from bellows_design.design.lengths import FULL_ROUND_SNAP
-from bellows_design.design.topology import NOTHING, same_topology
+from bellows_design.design.topology import FLOORS, NOTHING, same_topology, signature
 from bellows_design.errors import DesignError
 from bellows_design.validation.quoting import did_you_mean, quoted
 
 __all__ = [
     "between",
+    "counted",
     "geometric_parameters",
+    "kinked",
     "led_along",
     "parameters",
     "same_topology",
@@ -84,6 +86,23 @@ def varied(design: Design, changes: Mapping[str, float]) -> Design:
         if fillet not in changes:
             _follow(table, fillet, lengths[fillet], min(limits.values()))
     return Design.of(table)
+
+
+def counted(design: Design) -> Design:
+    """``design`` with the number of bubbles that it has as a given number."""
+    table = design.model_dump()
+    table["bellows"]["number_of_bubbles"] = design.bellows.bubble_count
+    return Design.of(table)
+
+
+def kinked(design: Design) -> tuple[str, ...]:
+    """Parameters at which the body, and so its response, has two one-sided derivatives.
+
+    Where the floors of channel and chambers are level, either one alone makes a step, whose place
+    depends on which of them is higher.
+    """
+    level = abs(signature(design)[FLOORS]) < NOTHING
+    return ("bubble_thickness", "tendon_thickness") if level else ()
 
 
 def between(design: Design, other: Design, share: float) -> Design:

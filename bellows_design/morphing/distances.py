@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from bellows_design.morphing.primitives import Boxes
-from solver.arrays import Integers, Reals
+from bellows_design.morphing.primitives import Boxes, Indices
+from solver.arrays import Reals
 
 
-def signed_distances(boxes: Boxes, chosen: Integers, points: Reals) -> Reals:
+def signed_distances(boxes: Boxes, chosen: Indices, points: Reals) -> Reals:
     """Distance of points (k, 3) from the surfaces of the boxes ``chosen`` (k,), mm.
 
     Negative inside. Source: I. Quilez, distance functions of rounded boxes.
@@ -19,9 +19,7 @@ def signed_distances(boxes: Boxes, chosen: Integers, points: Reals) -> Reals:
     return outside + np.minimum(beyond.max(axis=1), 0.0) - boxes.radius[chosen]
 
 
-def distances_and_normals(
-    boxes: Boxes, chosen: Integers, points: Reals
-) -> tuple[Reals, Reals]:
+def distances_and_normals(boxes: Boxes, chosen: Indices, points: Reals) -> tuple[Reals, Reals]:
     """Signed distances (k,) as above, mm, and their gradients (k, 3) for points outside of cores.
 
     Inside of a core the gradient is that of its nearest plane.
@@ -39,7 +37,7 @@ def distances_and_normals(
     return distance, gradient * np.where(offset < 0, -1.0, 1.0)
 
 
-def _middles_and_halves(boxes: Boxes, chosen: Integers) -> tuple[Reals, Reals]:
+def _middles_and_halves(boxes: Boxes, chosen: Indices) -> tuple[Reals, Reals]:
     middle = boxes.core.mean(axis=1)
     half = (boxes.core[:, 1] - boxes.core[:, 0]) / 2
     return middle[chosen], half[chosen]

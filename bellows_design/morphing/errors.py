@@ -17,6 +17,10 @@ class NoNeighbour(BellowsError):
         self.reason = reason
 
 
+class ForeignMesh(BellowsError):
+    """A mesh whose nodes do not lie on the surfaces of the design's body."""
+
+
 class MorphFailed(BellowsError):
     """Moving the mesh's nodes to the other design folds an element.
 

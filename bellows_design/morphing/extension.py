@@ -11,19 +11,20 @@ from numpy.typing import NDArray
 from scipy.sparse import csc_matrix, csr_matrix
 from scipy.sparse.linalg import splu
 
-from solver.arrays import Integers, Reals
+from bellows_design.morphing.primitives import Indices
+from solver.arrays import Reals
 
 
 @dataclass(frozen=True)
 class Extension:
     """Values at all points from those at ``known``: ``unknown`` ones solve K u = 0.
 
-    ``coupling`` are the rows of K of unknown points and the columns of known ones; ``solve`` applies
-    the inverse of the rest, which was factorized once.
+    ``coupling`` are the rows of K of unknown points and the columns of known ones; ``solve``
+    applies the inverse of the rest, which was factorized once.
     """
 
-    known: Integers
-    unknown: Integers
+    known: Indices
+    unknown: Indices
     coupling: csr_matrix
     solve: Callable[[Reals], Reals]
 
@@ -43,30 +44,40 @@ class Extension:
         return pulled
 
 
-def extension(stiffness: csr_matrix, known: NDArray[np.bool_], among: NDArray[np.bool_]) -> Extension:
+def extension(
+    stiffness: csr_matrix, known: NDArray[np.bool_], among: NDArray[np.bool_]
+) -> Extension:
     """Harmonic extension from points ``known`` (n,) to the others ``among`` (n,) them.
 
     ``stiffness`` (n, n) is symmetric and positive semidefinite.
     """
     fixed, free = np.flatnonzero(known), np.flatnonzero(among & ~known)
     rows = stiffness[free]
-    solve: Any = (
-        splu(csc_matrix(rows[:, free]), permc_spec="MMD_AT_PLUS_A", options={"SymmetricMode": True}).solve
-        if len(free)
-        else np.asarray
-    )
-    return Extension(fixed, free, rows[:, fixed].tocsr(), solve)
+    return Extension(fixed, free, rows[:, fixed].tocsr(), _inverse(csc_matrix(rows[:, free])))
 
 
-def path_stiffness(points: Reals, edges: Integers) -> csr_matrix:
+def _inverse(matrix: csc_matrix) -> Callable[[Reals], Reals]:
+    """What applies the inverse of a symmetric positive definite matrix."""
+    if matrix.shape[0] == 0:
+        return np.asarray
+    symmetric: dict[str, Any] = {"SymmetricMode": True}
+    solve: Callable[[Reals], Reals] = splu(matrix, "MMD_AT_PLUS_A", options=symmetric).solve
+    return solve
+
+
+def path_stiffness(points: Reals, edges: Indices) -> csr_matrix:
     """Stiffness of straight bars ``edges`` (k, 2) between points (n, 3): 1 over their lengths."""
     lengths = np.linalg.norm(points[edges[:, 0]] - points[edges[:, 1]], axis=1)
     signs = np.array([[1.0, -1.0], [-1.0, 1.0]])
     return _assembled(len(points), edges, signs / lengths[:, None, None])
 
 
-def simplex_stiffness(points: Reals, cells: Integers) -> csr_matrix:
-    """Stiffness of the Laplacian with linear functions on triangles or tetrahedra (k, d + 1)."""
+def simplex_stiffness(points: Reals, cells: Indices) -> csr_matrix:
+    """Stiffness of a Laplacian with linear functions on triangles or tetrahedra (k, d + 1).
+
+    The smaller a cell the stiffer it is, by the inverse square of its size: what is meshed finely,
+    around edges and corners, then moves as a whole and keeps its shape.
+    """
     corners = points[cells]
     sides = corners[:, 1:] - corners[:, :1]
     metric = sides @ np.swapaxes(sides, 1, 2)
@@ -74,10 +85,11 @@ def simplex_stiffness(points: Reals, cells: Integers) -> csr_matrix:
     dimension = cells.shape[1] - 1
     slopes = np.vstack([-np.ones(dimension), np.eye(dimension)])
     local = slopes @ np.linalg.inv(metric) @ slopes.T
-    return _assembled(len(points), cells, local * volume[:, None, None])
+    stiffness = volume ** (1 - 2 / dimension)
+    return _assembled(len(points), cells, local * stiffness[:, None, None])
 
 
-def _assembled(size: int, cells: Integers, local: Reals) -> csr_matrix:
+def _assembled(size: int, cells: Indices, local: Reals) -> csr_matrix:
     width = cells.shape[1]
     rows = np.repeat(cells, width, axis=1).ravel()
     columns = np.tile(cells, (1, width)).ravel()

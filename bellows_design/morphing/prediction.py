@@ -10,9 +10,7 @@ from solver.arrays import Reals
 
 def predicted(own: Boxes, other: Boxes, points: Reals) -> Reals:
     """Points (k, 3) of the own body in the other, mm, by a piecewise linear map of each axis."""
-    columns = [
-        np.interp(points[:, axis], *_knots(own, other, axis)) for axis in range(3)
-    ]
+    columns = [np.interp(points[:, axis], *_knots(own, other, axis)) for axis in range(3)]
     return np.stack(columns, axis=1)
 
 
@@ -28,4 +26,5 @@ def _knots(own: Boxes, other: Boxes, axis: int) -> tuple[Reals, Reals]:
 
 def _planes(boxes: Boxes, axis: int) -> Reals:
     reach = boxes.radius[:, None] * np.array([-1.0, 1.0])
-    return np.concatenate([(boxes.core[:, :, axis] + reach).ravel(), boxes.core[:, :, axis].ravel()])
+    core = boxes.core[:, :, axis]
+    return np.concatenate([(core + reach).ravel(), core.ravel()])

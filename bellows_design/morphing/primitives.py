@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,7 +21,8 @@ from bellows_design.design.indent import Indent
 from bellows_design.design.lengths import snapped_radius
 from solver.arrays import Reals
 
-ModelName = Literal["unit-cell", "half", "full"]
+Indices = NDArray[np.signedinteger[Any]]
+"""Numbers of rows."""
 
 FAR = 1000.0
 """mm. Where a box ends that reaches beyond every body."""
@@ -54,12 +55,14 @@ class Box:
 class Boxes:
     """Boxes as arrays: ``core`` (m, 2, 3), lower and upper ends of the cores, ``radius`` (m,), mm.
 
-    The core of a sharp box is the box itself. ``role`` (m,) as in :class:`Box`.
+    The core of a sharp box is the box itself. ``role`` (m,) as in :class:`Box`. ``level_floors``:
+    the floors of channel and chambers lie in one plane.
     """
 
     core: Reals
     radius: Reals
     role: NDArray[np.int64]
+    level_floors: bool
 
 
 def boxes_of(design: Design, model: str, channel_end: float = 0.5) -> Boxes:
@@ -67,16 +70,17 @@ def boxes_of(design: Design, model: str, channel_end: float = 0.5) -> Boxes:
     middles = (0.0,) if model == "unit-cell" else design.bellows.bubble_middles
     repeated = [box.moved(x) for x in middles for box in _of_a_bubble(design)]
     along = _of_the_cell if model == "unit-cell" else _of_the_actuator
-    return _arrays([*along(design.bellows, channel_end), *repeated])
+    level = abs(design.bellows.tendon_thickness - design.bellows.bubble_thickness) < DEGENERATE
+    return _arrays([*along(design.bellows, channel_end), *repeated], level)
 
 
-def _arrays(boxes: list[Box]) -> Boxes:
+def _arrays(boxes: list[Box], level: bool) -> Boxes:
     ends = np.array([(box.lower, box.upper) for box in boxes])
     radius = np.array([box.radius for box in boxes])
     core = ends + radius[:, None, None] * np.array([1.0, -1.0])[:, None]
     flat = np.abs(core[:, 1] - core[:, 0]) < 2 * DEGENERATE
     core = np.where(flat[:, None], core.mean(axis=1, keepdims=True), core)
-    return Boxes(core, radius, np.array([box.role for box in boxes]))
+    return Boxes(core, radius, np.array([box.role for box in boxes]), level)
 
 
 def _of_the_cell(bellows: BellowsParameters, _: float) -> Iterator[Box]:

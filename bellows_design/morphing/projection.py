@@ -7,8 +7,8 @@ from numpy.typing import NDArray
 
 from bellows_design.morphing.classification import Places, plane_values
 from bellows_design.morphing.distances import distances_and_normals
-from bellows_design.morphing.primitives import Boxes
-from solver.arrays import Integers, Reals
+from bellows_design.morphing.primitives import Boxes, Indices
+from solver.arrays import Reals
 
 STEPS = 20
 """Most steps of Newton's method; three or four are usual."""
@@ -17,7 +17,7 @@ EXACT = 1e-12
 """mm. A point this near to its surfaces lies on them."""
 
 
-def projected(boxes: Boxes, places: Places, rows: Integers, points: Reals) -> tuple[Reals, Reals]:
+def projected(boxes: Boxes, places: Places, rows: Indices, points: Reals) -> tuple[Reals, Reals]:
     """The points (k, 3) of ``places[rows]`` on their surfaces, and how far they miss them, mm.
 
     Pinned coordinates take their planes' values; the free ones move by the least change that
@@ -40,7 +40,7 @@ def projected(boxes: Boxes, places: Places, rows: Integers, points: Reals) -> tu
 
 
 def _conditions(
-    boxes: Boxes, curved: NDArray[np.int64], points: Reals, free: NDArray[np.bool_]
+    boxes: Boxes, curved: Indices, points: Reals, free: NDArray[np.bool_]
 ) -> tuple[Reals, Reals]:
     """Distances (k, 3) from the surfaces in every slot, and slopes (k, 3, 3) in free directions."""
     distance = np.zeros(curved.shape[:2])
@@ -61,6 +61,6 @@ def _conditions(
 def _least_change(distance: Reals, slopes: Reals) -> Reals:
     """The shortest step (k, 3) with ``slopes`` · step = ``distance``."""
     gram = slopes @ np.swapaxes(slopes, 1, 2)
-    idle = np.trace(gram[:, :, :], axis1=1, axis2=2)[:, None] * 0 + np.einsum("kss->ks", gram)
-    gram[:, np.arange(3), np.arange(3)] += np.where(idle == 0, 1.0, 1e-14)
+    diagonal = np.einsum("kss->ks", gram)
+    gram[:, range(3), range(3)] += np.where(diagonal == 0, 1.0, 1e-14)  # empty slots do nothing
     return np.einsum("ksi,ks->ki", slopes, np.linalg.solve(gram, distance[..., None])[..., 0])
