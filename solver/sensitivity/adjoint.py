@@ -49,6 +49,7 @@ class Tangent:
     """Both triangles of the tangent of an equilibrium, as products with vectors (m,)."""
 
     upper: csr_array
+    diagonal: Reals
     skew: csr_array | None
 
     @staticmethod
@@ -61,12 +62,12 @@ class Tangent:
             return csr_array((values, pattern.indices, pattern.indptr), shape=(size, size))
 
         skew = matrix(equilibrium.skew) if len(equilibrium.skew) else None
-        return Tangent(matrix(equilibrium.tangent), skew)
+        upper = matrix(equilibrium.tangent)
+        return Tangent(upper, upper.diagonal(), skew)
 
     def times(self, vector: Reals, transposed: bool = False) -> Reals:
         """The product, or that of the transpose."""
-        diagonal = self.upper.diagonal()
-        result: Reals = self.upper @ vector + self.upper.T @ vector - diagonal * vector
+        result: Reals = self.upper @ vector + self.upper.T @ vector - self.diagonal * vector
         if self.skew is None:
             return result
         skew: Reals = self.skew @ vector - self.skew.T @ vector
@@ -130,7 +131,7 @@ class TangentSystem:
 
     def _refined(self, right_hand_side: Reals, transposed: bool) -> tuple[Reals, float]:
         """The best solution by refinement with the last factorization, and its residual."""
-        scale = float(np.linalg.norm(right_hand_side)) or 1.0
+        scale = _length(right_hand_side) or 1.0
         best, least = np.zeros_like(right_hand_side), np.inf
         vector, rest = best, right_hand_side
         for _ in range(MOST_REFINEMENTS):
@@ -139,13 +140,18 @@ class TangentSystem:
             except SingularMatrix:  # nothing was factorized yet
                 break
             rest = right_hand_side - self.tangent.times(vector, transposed)
-            residual = float(np.linalg.norm(rest)) / scale
+            residual = _length(rest) / scale
             if not residual < least:
                 break
             slow, best, least = residual > CONTRACTION * least, vector, residual
             if least <= ENOUGH or slow:
                 break
         return best, least
+
+
+def _length(vector: Reals) -> float:
+    """Euclidean norm; not by BLAS, whose threads wait longer than such a vector takes."""
+    return float(np.sqrt((vector * vector).sum()))
 
 
 SINGULAR = (
