@@ -10,7 +10,12 @@ from solver.linear.solvers import linear_solver
 
 
 class LinearSystem:
-    """The last factorization of the tangent of an ``assembly``, by the solver ``name``."""
+    """The last factorization of the tangent of an ``assembly``, by the solver ``name``.
+
+    ``factorized``: whether there is one; without it nothing can be solved.
+    """
+
+    factorized: bool = False
 
     def __init__(self, assembly: Assembly, name: str) -> None:
         self._numbering = assembly.numbering
@@ -32,10 +37,12 @@ class LinearSystem:
 
     def factorize(self, equilibrium: Equilibrium) -> None:
         """Factorize a tangent; contact may have changed its pattern. Raises ``SingularMatrix``."""
+        self.factorized = False
         if equilibrium.pattern is not self._analyzed:
             self._solver.analyze(equilibrium.pattern)
             self._analyzed = equilibrium.pattern
         self._solver.factorize(equilibrium.tangent, equilibrium.skew)
+        self.factorized = True
 
     def solve(self, right_hand_side: Reals, transposed: bool = False) -> Reals:
         """Solve for the unknowns (m,) with the last factorization, or its transpose."""

@@ -104,9 +104,7 @@ class TangentSystem:
         equilibrium = assembly.evaluate(at.state, at.pressure, load=at.load)
         if workspace is not None:
             return TangentSystem(at, workspace.system, equilibrium)
-        system = TangentSystem(at, LinearSystem(assembly, "auto"), equilibrium)
-        system.factorize()
-        return system
+        return TangentSystem(at, LinearSystem(assembly, "auto"), equilibrium)
 
     def factorize(self) -> None:
         """Factorize the tangent of the state itself. Raises ``SolverError`` if it is singular."""
@@ -121,6 +119,8 @@ class TangentSystem:
 
         Raises ``SolverError`` if the tangent is singular to working precision.
         """
+        if not self.system.factorized:
+            self.factorize()
         vector, residual = self._refined(right_hand_side, transposed)
         if not residual <= LARGEST and not self.factorizations:
             self.factorize()
@@ -135,10 +135,7 @@ class TangentSystem:
         best, least = np.zeros_like(right_hand_side), np.inf
         vector, rest = best, right_hand_side
         for _ in range(MOST_REFINEMENTS):
-            try:
-                vector = vector + self.system.solve(rest, transposed)
-            except SingularMatrix:  # nothing was factorized yet
-                break
+            vector = vector + self.system.solve(rest, transposed)
             rest = right_hand_side - self.tangent.times(vector, transposed)
             residual = _length(rest) / scale
             if not residual < least:

@@ -7,6 +7,7 @@ springs and dead loads.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -74,11 +75,18 @@ class Equilibrated:
         return tuple(pair for pair in pairs if pair.touches(self.state, self.load))
 
 
-def work_gradient(at: Equilibrated, direction: Direction) -> Derivatives:
-    """Derivatives of the work along a direction that keeps its displacements."""
-    solid_part = _solid(at, direction)
+def work_gradients(at: Equilibrated, directions: Sequence[Direction]) -> tuple[Derivatives, ...]:
+    """Derivatives of the works along directions that keep their displacements."""
+    solids = _solids(at, directions)
+    return tuple(
+        part + _of_forces(at, direction) for part, direction in zip(solids, directions, strict=True)
+    )
+
+
+def _of_forces(at: Equilibrated, direction: Direction) -> Derivatives:
+    """The parts of all that acts on the solid."""
     through_positions = _pressure(at, direction)
-    both = solid_part + Derivatives(through_positions, through_positions)
+    both = Derivatives(through_positions, through_positions)
     problem = at.assembly.problem
     for pair in at.touching:
         both = both + Derivatives(*contact_derivatives(pair, at.state, at.load, direction))
@@ -93,16 +101,20 @@ def work_gradient(at: Equilibrated, direction: Direction) -> Derivatives:
     return both
 
 
-def _solid(at: Equilibrated, direction: Direction) -> Derivatives:
-    problem, state = at.assembly.problem, at.state
-    tets = problem.mesh.tets
-    by_position, by_displacement = np.empty((2, *tets.shape, 3))
+def _solids(at: Equilibrated, directions: Sequence[Direction]) -> list[Derivatives]:
+    """The parts of the solid, of all directions at once: they share its stress and tangent."""
+    mesh, state = at.assembly.problem.mesh, at.state
+    parts = np.empty((2, len(directions), *mesh.tets.shape, 3))
     work_derivatives(
-        solid(problem), np.ascontiguousarray(state.displacement), state.hydrostatic_pressure,
-        direction.displacement, direction.hydrostatic_pressure, by_position, by_displacement,
+        solid(at.assembly.problem), np.ascontiguousarray(state.displacement),
+        state.hydrostatic_pressure, np.stack([each.displacement for each in directions]),
+        np.stack([each.hydrostatic_pressure for each in directions]), *parts,
     )  # fmt: skip
-    size = len(problem.mesh.nodes)
-    return Derivatives(summed(size, tets, by_position), summed(size, tets, by_displacement))
+    size = len(mesh.nodes)
+    return [
+        Derivatives(*(summed(size, mesh.tets, part) for part in pair))
+        for pair in zip(*parts, strict=True)
+    ]
 
 
 def _pressure(at: Equilibrated, direction: Direction) -> Reals:

@@ -23,7 +23,6 @@ from solver import (
     sensitivities,
     solve,
 )
-from solver.arrays import Reals
 from solver.assembly.assembly import Assembly, Equilibrium
 from solver.assembly.state import State
 from solver.errors import SolverError
@@ -136,11 +135,10 @@ def test_reach_is_the_distance_to_the_limit_point(volume: float) -> None:
 
 def test_a_singular_tangent_is_refused(bent: Solution) -> None:
     class Singular:
+        factorized = False
+
         def factorize(self, equilibrium: Equilibrium) -> None:
             raise SingularMatrix("a pivot is zero")
-
-        def solve(self, right_hand_side: Reals, transposed: bool = False) -> Reals:
-            raise SingularMatrix("nothing is factorized")
 
     hand = SimpleNamespace(assembly=Assembly(bent.problem), system=Singular())
     with pytest.raises(SolverError, match=r"tangent is singular at this state.*pivot is zero"):

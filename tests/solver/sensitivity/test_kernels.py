@@ -64,8 +64,8 @@ def displaced() -> Array:
 def test_work_derivatives_are_second_derivatives_of_the_energy(body: Solid) -> None:
     """The work along a direction is the energy's derivative; its own are by nodes and places."""
     u, (velocity, w, q, m) = displaced(), draws(NODAL, NODAL, *2 * [(len(MESH.vertices),)])
-    parts = np.empty((2, *MESH.tets.shape, 3))
-    work_derivatives(body, u, q, w, m, *parts)
+    parts = np.empty((2, 2, *MESH.tets.shape, 3))
+    work_derivatives(body, u, q, np.stack([w, 2 * w]), np.stack([m, 2 * m]), *parts)
 
     def work(nodes: Array, displacement: Array) -> float:
         moving = body._replace(nodes=nodes)
@@ -73,8 +73,9 @@ def test_work_derivatives_are_second_derivatives_of_the_energy(body: Solid) -> N
 
     by_place = slope(lambda h: work(MESH.nodes + h * velocity, u), STEP)
     by_displacement = slope(lambda h: work(MESH.nodes, u + h * velocity), STEP)
-    found = (parts * velocity[MESH.tets]).sum(axis=(1, 2, 3))
-    assert found == pytest.approx([by_place, by_displacement], rel=1e-7)
+    first, second = np.swapaxes((parts * velocity[MESH.tets]).sum(axis=(2, 3, 4)), 0, 1)
+    assert first == pytest.approx([by_place, by_displacement], rel=1e-7)
+    assert second == pytest.approx(2 * first, rel=1e-12)
 
 
 def test_stress_derivatives_are_those_of_the_stress(body: Solid) -> None:
