@@ -52,77 +52,95 @@ def work_derivatives(
     solid: Solid,
     displacement: Reals,
     pressure: Reals,
-    direction: Reals,
-    pressure_direction: Reals,
+    directions: Reals,
+    pressure_directions: Reals,
     by_position: Reals,
     by_displacement: Reals,
 ) -> None:
-    """Derivatives (e, 10, 3) of each element's virtual work by its nodes and displacements, N.
+    """Derivatives (r, e, 10, 3) of each element's virtual works by nodes and displacements, N.
 
-    ``displacement`` and ``direction`` (n, 3), mm; ``pressure`` and its direction (v,), MPa.
+    ``displacement`` (n, 3) and ``directions`` (r, n, 3), mm; ``pressure`` (v,) and its directions
+    (r, v), MPa.
     """
     for element in prange(solid.tets.shape[0]):
         x, u, w = np.empty((10, 3)), np.empty((10, 3)), np.empty((10, 3))
         gradients, g = np.empty((10, 3)), np.empty((10, 3))
         h, f, inverse = np.empty((3, 3)), np.empty((3, 3)), np.empty((3, 3))
         b, vectors, turned = np.empty((3, 3)), np.empty((3, 3)), np.empty((3, 3))
+        tau, rate = np.empty((3, 3)), np.empty((3, 3))
         change_w, velocity = np.empty((3, 3)), np.empty((3, 3))
-        tau, rate, product_rate = np.empty((3, 3)), np.empty((3, 3)), np.empty((3, 3))
-        logs, stress, lie, shear = np.empty(3), np.empty(3), np.empty(3), np.empty(3)
+        logs, stress, shear = np.empty(3), np.empty(3), np.empty(3)
         normal, voigt, none = np.empty((3, 3)), np.empty(6), np.zeros(3)
         for a in range(10):
             node = solid.tets[element, a]
             for i in range(3):
                 x[a, i] = solid.nodes[node, i]
                 u[a, i] = displacement[node, i]
-                w[a, i] = direction[node, i]
-                by_position[element, a, i] = 0.0
-                by_displacement[element, a, i] = 0.0
+        for r in range(directions.shape[0]):
+            by_position[r, element, :, :] = 0.0
+            by_displacement[r, element, :, :] = 0.0
         for point in range(solid.weights.size):
             dv = solid.weights[point] * reference_gradients(x, solid.gradients[point], gradients)
             displacement_gradient(u, gradients, h)
-            displacement_gradient(w, gradients, change_w)
+            change = volume_change(h)
             deformation_gradient(h, f)
             invert(f, inverse)
             spatial_gradients(gradients, inverse, g)
-            product(change_w, inverse, velocity)
-            change = volume_change(h)
-            q, m = 0.0, 0.0
+            q = 0.0
             for v in range(4):
-                vertex = solid.tet_vertices[element, v]
-                q += solid.linear[point, v] * pressure[vertex]
-                m += solid.linear[point, v] * pressure_direction[vertex]
+                q += solid.linear[point, v] * pressure[solid.tet_vertices[element, v]]
             spectrum(h, b, vectors, logs)
             principal_response(
                 solid.law, logs, b, -q * (1.0 + change), solid.constants, stress, normal, shear,
             )  # fmt: skip
-            along_axes(velocity, vectors, turned)
-            for i in range(3):
-                lie[i] = -m * (1.0 + change)
-                for j in range(3):
-                    lie[i] += normal[i, j] * turned[j, j]
             pulled_back(vectors, stress, none, turned, voigt)
             as_matrix(voigt, tau)
-            pulled_back(vectors, lie, shear, turned, voigt)
-            as_matrix(voigt, rate)
-            product(velocity, tau, product_rate)
             swelling, _ = volume_law(q, solid.compliance, solid.logarithmic)
-            density = m * (swelling - change)
-            for i in range(3):
-                for j in range(3):
-                    rate[i, j] += product_rate[i, j]
-                    density += tau[i, j] * velocity[i, j]
-            for a in range(10):
+            for r in range(directions.shape[0]):
+                m = 0.0
+                for v in range(4):
+                    vertex = solid.tet_vertices[element, v]
+                    m += solid.linear[point, v] * pressure_directions[r, vertex]
+                for a in range(10):
+                    for i in range(3):
+                        w[a, i] = directions[r, solid.tets[element, a], i]
+                displacement_gradient(w, gradients, change_w)
+                product(change_w, inverse, velocity)
+                along_axes(velocity, vectors, turned)
+                _stress_rate(turned, vectors, normal, shear, -m * (1.0 + change), rate)
+                density = m * (swelling - change)
                 for i in range(3):
-                    by_position[element, a, i] += dv * density * gradients[a, i]
-            _add(gradients, g, dv, rate, h, by_position[element], by_displacement[element], True)
-            _add(gradients, g, dv, tau, change_w, by_position[element], by_displacement[element],
-                 False)  # fmt: skip
+                    for j in range(3):
+                        density += tau[i, j] * velocity[i, j]
+                        for k in range(3):
+                            rate[i, j] += velocity[i, k] * tau[k, j]
+                places, moves = by_position[r, element], by_displacement[r, element]
+                for a in range(10):
+                    for i in range(3):
+                        places[a, i] += dv * density * gradients[a, i]
+                _add(g, dv, rate, h, places, moves, True)
+                _add(g, dv, tau, change_w, places, moves, False)
+
+
+@compiled()
+def _stress_rate(
+    turned: Reals, vectors: Reals, normal: Reals, shear: Reals, spherical: float, rate: Reals
+) -> None:
+    """Lie derivative (3, 3) of the stress along a velocity gradient ``turned`` to principal axes.
+
+    ``normal`` and ``shear`` as ``principal_response`` fills them; ``spherical`` is added.
+    """
+    along, voigt = np.empty(3), np.empty(6)
+    for i in range(3):
+        along[i] = spherical
+        for j in range(3):
+            along[i] += normal[i, j] * turned[j, j]
+    pulled_back(vectors, along, shear, turned, voigt)
+    as_matrix(voigt, rate)
 
 
 @compiled()
 def _add(
-    gradients: Reals,
     g: Reals,
     dv: float,
     spatial: Reals,
@@ -133,7 +151,7 @@ def _add(
 ) -> None:
     """Add a stress ``spatial`` g_a to ``by_displacement`` if ``moved``, -h^T of it to the other."""
     force = np.empty(3)
-    for a in range(gradients.shape[0]):
+    for a in range(g.shape[0]):
         for i in range(3):
             force[i] = spatial[i, 0] * g[a, 0] + spatial[i, 1] * g[a, 1] + spatial[i, 2] * g[a, 2]
             if moved:
@@ -170,7 +188,7 @@ def stress_derivatives(
         tau, given, whole, mixed = (
             np.empty((3, 3)), np.empty((3, 3)), np.empty((3, 3)), np.empty((3, 3)),
         )  # fmt: skip
-        logs, stress, along, shear = np.empty(3), np.empty(3), np.empty(3), np.empty(3)
+        logs, stress, shear = np.empty(3), np.empty(3), np.empty(3)
         normal, voigt, none = np.empty((3, 3)), np.empty(6), np.zeros(3)
         for a in range(10):
             node = solid.tets[element, a]
@@ -193,12 +211,7 @@ def stress_derivatives(
                 voigt[c] = weights[element, point, c] * (1.0 if c < 3 else 0.5)
             as_matrix(voigt, given)
             along_axes(given, vectors, turned)
-            for i in range(3):
-                along[i] = 0.0
-                for j in range(3):
-                    along[i] += normal[i, j] * turned[j, j]
-            pulled_back(vectors, along, shear, turned, voigt)
-            as_matrix(voigt, whole)
+            _stress_rate(turned, vectors, normal, shear, 0.0, whole)
             pulled_back(vectors, stress, none, turned, voigt)
             as_matrix(voigt, tau)
             product(given, tau, mixed)
@@ -207,7 +220,7 @@ def stress_derivatives(
                 for j in range(3):
                     whole[i, j] = (whole[i, j] + 2.0 * mixed[i, j]) / jacobian
                 whole[i, i] -= total
-            _add(gradients, g, 1.0, whole, h, by_position[element], by_displacement[element], True)
+            _add(g, 1.0, whole, h, by_position[element], by_displacement[element], True)
             for a in range(10):
                 for i in range(3):
                     by_position[element, a, i] += volume_weights[element] * dv * gradients[a, i]

@@ -35,10 +35,10 @@ class LinearSystem:
     """The last factorization of the tangent of an ``assembly``, by the solver ``name``.
 
     Attributes:
-        at_hand: whether there is a factorization, of this assembly or of one before.
+        factorized: whether there is a factorization, of this assembly or of one before.
     """
 
-    at_hand: bool
+    factorized: bool
     _solver: LinearSolver
     _analyzed: Pattern
 
@@ -53,15 +53,15 @@ class LinearSystem:
         self._kind = Kind(name, assembly.symmetric, factors(assembly.problem, assembly.numbering))
         if former is not None and former._kind.same(self._kind):
             self._solver, self._analyzed = former._solver, former._analyzed
-            self.at_hand = former.at_hand
+            self.factorized = former.factorized
             return
         self._solver = scaled(linear_solver(name, assembly.symmetric), self._kind.scale)
         self._solver.analyze(assembly.pattern)
-        self._analyzed, self.at_hand = assembly.pattern, False
+        self._analyzed, self.factorized = assembly.pattern, False
 
     def forget(self) -> None:
         """Drop the factorization: it is of a state that led nowhere."""
-        self.at_hand = False
+        self.factorized = False
 
     @property
     def name(self) -> str:
@@ -75,12 +75,12 @@ class LinearSystem:
 
     def factorize(self, equilibrium: Equilibrium) -> None:
         """Factorize a tangent; contact may have changed its pattern. Raises ``SingularMatrix``."""
-        self.at_hand = False
+        self.factorized = False
         if equilibrium.pattern is not self._analyzed:
             self._solver.analyze(equilibrium.pattern)
             self._analyzed = equilibrium.pattern
         self._solver.factorize(equilibrium.tangent, equilibrium.skew)
-        self.at_hand = True
+        self.factorized = True
 
     def solve(self, right_hand_side: Reals, transposed: bool = False) -> Reals:
         """Solve for the unknowns (m,) with the last factorization, or its transpose."""

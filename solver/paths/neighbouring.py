@@ -84,7 +84,7 @@ def neighbouring(
 def _found(newton: Newton, start: State) -> Attempt:
     """The equilibrium at the whole load from ``start``, by way of its first-order change."""
     tolerance = newton.options.tolerance
-    if newton.system.at_hand:
+    if newton.system.factorized:
         try:
             change = newton.correction(start, 1.0, True, 0)
         except NoCorrection:

@@ -49,6 +49,7 @@ class Tangent:
     """Both triangles of the tangent of an equilibrium, as products with vectors (m,)."""
 
     upper: csr_array
+    diagonal: Reals
     skew: csr_array | None
 
     @staticmethod
@@ -61,12 +62,12 @@ class Tangent:
             return csr_array((values, pattern.indices, pattern.indptr), shape=(size, size))
 
         skew = matrix(equilibrium.skew) if len(equilibrium.skew) else None
-        return Tangent(matrix(equilibrium.tangent), skew)
+        upper = matrix(equilibrium.tangent)
+        return Tangent(upper, upper.diagonal(), skew)
 
     def times(self, vector: Reals, transposed: bool = False) -> Reals:
         """The product, or that of the transpose."""
-        diagonal = self.upper.diagonal()
-        result: Reals = self.upper @ vector + self.upper.T @ vector - diagonal * vector
+        result: Reals = self.upper @ vector + self.upper.T @ vector - self.diagonal * vector
         if self.skew is None:
             return result
         skew: Reals = self.skew @ vector - self.skew.T @ vector
@@ -103,9 +104,7 @@ class TangentSystem:
         equilibrium = assembly.evaluate(at.state, at.pressure, load=at.load)
         if workspace is not None:
             return TangentSystem(at, workspace.system, equilibrium)
-        system = TangentSystem(at, LinearSystem(assembly, "auto"), equilibrium)
-        system.factorize()
-        return system
+        return TangentSystem(at, LinearSystem(assembly, "auto"), equilibrium)
 
     def factorize(self) -> None:
         """Factorize the tangent of the state itself. Raises ``SolverError`` if it is singular."""
@@ -120,6 +119,8 @@ class TangentSystem:
 
         Raises ``SolverError`` if the tangent is singular to working precision.
         """
+        if not self.system.factorized:
+            self.factorize()
         vector, residual = self._refined(right_hand_side, transposed)
         if not residual <= LARGEST and not self.factorizations:
             self.factorize()
@@ -130,22 +131,24 @@ class TangentSystem:
 
     def _refined(self, right_hand_side: Reals, transposed: bool) -> tuple[Reals, float]:
         """The best solution by refinement with the last factorization, and its residual."""
-        scale = float(np.linalg.norm(right_hand_side)) or 1.0
+        scale = _length(right_hand_side) or 1.0
         best, least = np.zeros_like(right_hand_side), np.inf
         vector, rest = best, right_hand_side
         for _ in range(MOST_REFINEMENTS):
-            try:
-                vector = vector + self.system.solve(rest, transposed)
-            except SingularMatrix:  # nothing was factorized yet
-                break
+            vector = vector + self.system.solve(rest, transposed)
             rest = right_hand_side - self.tangent.times(vector, transposed)
-            residual = float(np.linalg.norm(rest)) / scale
+            residual = _length(rest) / scale
             if not residual < least:
                 break
             slow, best, least = residual > CONTRACTION * least, vector, residual
             if least <= ENOUGH or slow:
                 break
         return best, least
+
+
+def _length(vector: Reals) -> float:
+    """Euclidean norm; not by BLAS, whose threads wait longer than such a vector takes."""
+    return float(np.sqrt((vector * vector).sum()))
 
 
 SINGULAR = (

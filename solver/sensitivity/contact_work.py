@@ -14,34 +14,27 @@ from dataclasses import dataclass
 import numpy as np
 
 from solver.arrays import Reals
-from solver.assembly.contact import ContactPair, contact_pairs
+from solver.assembly.contact import ContactPair
 from solver.assembly.state import State
 from solver.kernels.contact import Plane, contact_slopes
 from solver.problem.contacts import on_moving_plane
-from solver.problem.problem import Problem
 from solver.sensitivity.surface_integrals import area_derivative, at_points, spread
 from solver.sensitivity.unknowns import Direction
 
 
 def contact_derivatives(
-    problem: Problem, state: State, load: float, direction: Direction
+    pair: ContactPair, state: State, load: float, direction: Direction
 ) -> tuple[Reals, Reals]:
-    """Derivatives (n, 3) by positions and by displacements of all contacts' work, N."""
-    by_position, by_displacement = np.zeros((2, *state.displacement.shape))
-    for pair in contact_pairs(problem):
-        if pair.touches(state, load):
-            touch = _Touch.of(pair, state, load, direction)
-            moving = touch.by_deformed_position()
-            by_displacement += moving
-            by_position += moving + touch.by_area() + touch.by_place_of_the_plane()
-    return by_position, by_displacement
+    """Derivatives (n, 3) by positions and by displacements of a contact's work, N."""
+    touch = _Touch.of(pair, state, load, direction)
+    moving = touch.by_deformed_position()
+    return moving + touch.by_area() + touch.by_place_of_the_plane(), moving
 
 
-def contact_work(problem: Problem, state: State, load: float, direction: Direction) -> float:
-    """Work of all contacts along a direction, N mm; in proportion to their stiffness."""
-    touching = (pair for pair in contact_pairs(problem) if pair.touches(state, load))
-    touches = (_Touch.of(pair, state, load, direction) for pair in touching)
-    return float(sum((touch.pair.face.areas * touch.density).sum() for touch in touches))
+def contact_work(pair: ContactPair, state: State, load: float, direction: Direction) -> float:
+    """Work of a contact along a direction, N mm; in proportion to its stiffness."""
+    touch = _Touch.of(pair, state, load, direction)
+    return float((pair.face.areas * touch.density).sum())
 
 
 @dataclass(frozen=True)

@@ -31,7 +31,7 @@ from solver.sensitivity.reach import reach_of
 from solver.sensitivity.responses import Response, available, response
 from solver.sensitivity.smooth_peak import SHARPNESS, PeakRegion, SmoothPeak
 from solver.sensitivity.unknowns import Direction, carried, gathered, turned
-from solver.sensitivity.work import Equilibrated, plane_forces, work_gradient
+from solver.sensitivity.work import Derivatives, Equilibrated, plane_forces, work_gradients
 
 FLAT = 1e-6
 """Difference of the velocities along x of nodes on the moving plane, in largest velocities."""
@@ -155,12 +155,10 @@ def gradients(
     system = TangentSystem.of(solution, workspace)
     mask = trusted_nodes(problem) if counted is None else counted
     region = PeakRegion.of(problem, displacement, mask, sharpness)
-    forces = plane_forces(system.at) if problem.moving_plane is not None else None
-    found = {name: _gradient(system, response(name, system.at, region), forces) for name in names}
     return Gradients(
         solution=solution,
         at=system.at,
-        responses=found,
+        responses=_gradients(system, {name: response(name, system.at, region) for name in names}),
         region=region,
         smooth_peak=region.peak(displacement),
         reach=reach_of(system),
@@ -168,27 +166,53 @@ def gradients(
     )
 
 
-def _gradient(system: TangentSystem, response: Response, forces: Reals | None) -> ResponseGradient:
-    """The gradient of a response; ``forces`` (n, 3) of the moving plane, None without one."""
-    at, equilibrium = system.at, system.equilibrium
-    assembly, state = at.assembly, at.state
-    by_unknowns = gathered(assembly, state, response.explicit.by_displacement)
-    if response.by_tilt:
-        by_unknowns[assembly.numbering.plane[0]] += response.by_tilt
-    vector, residual = system.solve(by_unknowns, transposed=True)
-    direction = Direction.of(assembly, state, vector)
-    total = response.explicit - work_gradient(at, direction)
+@dataclass(frozen=True)
+class _Adjoint:
+    """Solution (m,) of the adjoint system of a response, as a direction, and its residual."""
+
+    vector: Reals
+    direction: Direction
+    residual: float
+
+    @staticmethod
+    def of(system: TangentSystem, response: Response) -> _Adjoint:
+        assembly, state = system.at.assembly, system.at.state
+        by_unknowns = gathered(assembly, state, response.explicit.by_displacement)
+        if response.by_tilt:
+            by_unknowns[assembly.numbering.plane[0]] += response.by_tilt
+        vector, residual = system.solve(by_unknowns, transposed=True)
+        return _Adjoint(vector, Direction.of(assembly, state, vector), residual)
+
+
+def _gradients(
+    system: TangentSystem, responses: Mapping[str, Response]
+) -> dict[str, ResponseGradient]:
+    """Gradients of several responses, whose works share the solid's stress."""
+    adjoints = [_Adjoint.of(system, each) for each in responses.values()]
+    works = work_gradients(system.at, [each.direction for each in adjoints])
+    has_plane = system.at.assembly.plane is not None
+    forces = plane_forces(system.at) if has_plane else np.zeros_like(system.at.positions)
+    return {
+        name: _gradient(system, responses[name], adjoint, work, forces)
+        for name, adjoint, work in zip(responses, adjoints, works, strict=True)
+    }
+
+
+def _gradient(
+    system: TangentSystem, response: Response, adjoint: _Adjoint, work: Derivatives, forces: Reals
+) -> ResponseGradient:
+    """The gradient of a response; ``forces`` (n, 3) act on the moving plane."""
+    assembly, state = system.at.assembly, system.at.state
+    total = response.explicit - work
     nodes = total.by_position + carried(assembly, state, total.by_displacement)
-    if forces is not None:
-        nodes = nodes - turned(assembly, state, direction, forces)
     return ResponseGradient(
         value=response.value,
-        nodes=nodes,
-        given=np.where(_led(at.assembly.problem), total.by_displacement, 0.0),
-        pressure=-float(vector @ equilibrium.force),
-        adjoint=direction,
-        residual=residual,
-        remaining=-float(vector @ equilibrium.residual),
+        nodes=nodes - turned(assembly, state, adjoint.direction, forces),
+        given=np.where(_led(assembly.problem), total.by_displacement, 0.0),
+        pressure=-float(adjoint.vector @ system.equilibrium.force),
+        adjoint=adjoint.direction,
+        residual=adjoint.residual,
+        remaining=-float(adjoint.vector @ system.equilibrium.residual),
     )
 
 

@@ -17,7 +17,7 @@ from solver.problem.problem import Problem
 from solver.sensitivity.contact_work import contact_work
 from solver.sensitivity.gradients import Gradients
 from solver.sensitivity.responses import PEAK
-from solver.sensitivity.work import solid_residual
+from solver.sensitivity.work import SolidResidual
 
 MaterialChange: TypeAlias = tuple[Hyperelastic, Hyperelastic, float]
 """Two materials beside the problem's, ahead and behind, and the parameter's step between them."""
@@ -64,7 +64,12 @@ def material_derivatives(
     Raises:
         SolverError: anything but two materials and a step other than zero.
     """
-    columns = {name: _by_material(found, *_checked(name, each)) for name, each in changes.items()}
+    if not changes:
+        return {response: {} for response in found.responses}
+    residual = SolidResidual.of(found.at)
+    columns = {
+        name: _by_material(found, residual, *_checked(name, each)) for name, each in changes.items()
+    }
     return {
         response: {name: column[response] for name, column in columns.items()}
         for response in found.responses
@@ -72,12 +77,16 @@ def material_derivatives(
 
 
 def _by_material(
-    found: Gradients, ahead: Hyperelastic, behind: Hyperelastic, step: float
+    found: Gradients,
+    residual: SolidResidual,
+    ahead: Hyperelastic,
+    behind: Hyperelastic,
+    step: float,
 ) -> dict[str, float]:
     """Response -> derivative: the work of a difference of forces, and the stress's own change."""
     at, problem = found.at, found.solution.problem
     (there, stretched), (back, compressed) = (
-        solid_residual(at, of_material(problem, each)) for each in (ahead, behind)
+        residual(of_material(problem, each)) for each in (ahead, behind)
     )
     forces, violations = there - back, stretched - compressed
     stiffer = (ahead.shear_modulus - behind.shear_modulus) / problem.material.shear_modulus
@@ -86,8 +95,8 @@ def _by_material(
         adjoint = each.adjoint
         work = float((forces * adjoint.displacement).sum())
         work += float(violations @ adjoint.hydrostatic_pressure)
-        if problem.contacts:  # their stiffness is in proportion to the material's
-            work += stiffer * contact_work(problem, at.state, at.load, adjoint)
+        for pair in at.touching:  # whose stiffness is in proportion to the material's
+            work += stiffer * contact_work(pair, at.state, at.load, adjoint)
         own = _own_change(found, ahead, behind) if name == PEAK else 0.0
         derivatives[name] = (own - work) / step
     return derivatives

@@ -4,7 +4,8 @@ Along the path of equilibria q(s) under s times the load, R(q, s) = 0 gives
 
     K q' = -R_s,   K q'' = -(R_qq q' q' + 2 R_qs q'),
 
-R being linear in s, so that the right-hand side is a second difference of residuals along q'. Near
+R being linear in s. As K q' + R_s = 0, the residual after a short step d along q' is d^2 / 2 times
+the bracket, to which one evaluation is enough for an estimate. Near
 a limit point at s*, q - q* goes as (s* - s)^(1/2), so that |q'| / (2 |q''|) is the distance s* - s
 itself; elsewhere it is the change of the load over which the path turns (our own estimate).
 """
@@ -18,7 +19,7 @@ from solver.sensitivity.adjoint import TangentSystem
 from solver.sensitivity.unknowns import Direction, moved
 
 LENGTH = 1e-3
-"""Longest displacement of the second difference, in body diagonals."""
+"""Longest displacement of the step, in body diagonals."""
 
 SHORT = 0.02
 """Reach, as a fraction of the load, below which a warning says so."""
@@ -34,7 +35,7 @@ def reach_of(system: TangentSystem) -> float | None:
     size = _length(system, first)
     step = LENGTH * assembly.problem.mesh.size / size
     here = system.equilibrium.residual
-    bend = (_residual(system, first, step) - 2 * here + _residual(system, first, -step)) / step**2
+    bend = 2 * (_residual(system, first, step) - here) / step**2
     second, _ = system.solve(-bend)
     turning = _length(system, second)
     return size / (2 * turning) if turning else None

@@ -49,7 +49,7 @@ def response(name: str, at: Equilibrated, region: PeakRegion) -> Response:
         return _volume(at)
     displacement = at.state.displacement
     explicit = Derivatives(*region.derivatives(displacement))
-    return Response(name, region.peak(displacement).value, explicit)
+    return Response(name, region.value(region.body, displacement), explicit)
 
 
 def _volume(at: Equilibrated) -> Response:

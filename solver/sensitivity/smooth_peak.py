@@ -104,7 +104,7 @@ class PeakRegion:
         average[self.nodes] = stress
         by_volume = ((raw - average[tets]) * shares[tets]).sum(axis=(1, 2))
         by_raw = volumes[:, None, None] * shares[tets]
-        by_stress = np.einsum("aq,eac->eqc", extrapolation(), by_raw)
+        by_stress = extrapolation().T @ by_raw
         parts = np.empty((2, *tets.shape, 3))
         stress_derivatives(
             self.body, np.ascontiguousarray(displacement), by_stress, by_volume, *parts

@@ -18,14 +18,15 @@ from solver.mesh.elements import triangle_rule
 
 def at_points(nodal: Reals, triangles: Integers) -> Reals:
     """Nodal vectors (n, 3) at the quadrature points of triangles (k, 6): (k, q, 3)."""
-    values: Reals = np.einsum("qa,kai->kqi", triangle_rule().quadratic, nodal[triangles])
+    values: Reals = triangle_rule().quadratic @ nodal[triangles]
     return values
 
 
 def tangents(x: Reals, triangles: Integers) -> tuple[Reals, Reals]:
     """x_r and x_s (k, q, 3) at the quadrature points, of positions x (n, 3)."""
-    along = np.einsum("qad,kai->dkqi", triangle_rule().gradients, x[triangles])
-    return along[0], along[1]
+    gradients = triangle_rule().gradients
+    corners = x[triangles]
+    return gradients[..., 0] @ corners, gradients[..., 1] @ corners
 
 
 def flux_derivative(x: Reals, triangles: Integers, field: Reals) -> Reals:
@@ -33,8 +34,8 @@ def flux_derivative(x: Reals, triangles: Integers, field: Reals) -> Reals:
     rule = triangle_rule()
     along_r, along_s = tangents(x, triangles)
     by_r, by_s = np.cross(along_s, field), np.cross(field, along_r)
-    weights_r, weights_s = np.moveaxis(rule.weights[:, None, None] * rule.gradients, 2, 0)
-    parts = np.einsum("qa,kqi->kai", weights_r, by_r) + np.einsum("qa,kqi->kai", weights_s, by_s)
+    to_nodes = rule.weights[:, None, None] * rule.gradients
+    parts = to_nodes[..., 0].T @ by_r + to_nodes[..., 1].T @ by_s
     return summed(len(x), triangles, parts)
 
 
@@ -54,7 +55,7 @@ def areas(x: Reals, triangles: Integers) -> Reals:
 
 def spread(size: int, triangles: Integers, vectors: Reals) -> Reals:
     """Sums (n, 3) of N_a times vectors (k, q, 3) at the quadrature points."""
-    return summed(size, triangles, np.einsum("qa,kqi->kai", triangle_rule().quadratic, vectors))
+    return summed(size, triangles, triangle_rule().quadratic.T @ vectors)
 
 
 def volume_derivative(x: Reals, triangles: Integers) -> Reals:

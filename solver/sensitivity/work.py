@@ -7,19 +7,22 @@ springs and dead loads.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from solver.arrays import Reals
 from solver.assembly.assembly import NO_SUPPORTS, Assembly, solid
 from solver.assembly.colouring import chunks
-from solver.assembly.contact import contact_pairs
+from solver.assembly.contact import ContactPair, contact_pairs
 from solver.assembly.state import State
 from solver.kernels.assembly import Places, assemble
 from solver.kernels.element import Solid
 from solver.kernels.shape_derivatives import work_derivatives
-from solver.problem.unknowns import number_unknowns
+from solver.problem.unknowns import Numbering, number_unknowns
 from solver.sensitivity.contact_work import contact_derivatives
 from solver.sensitivity.load_work import load_derivative, spring_derivative
 from solver.sensitivity.surface_integrals import (
@@ -65,15 +68,28 @@ class Equilibrated:
         positions: Reals = self.assembly.problem.mesh.nodes + self.state.displacement
         return positions
 
+    @cached_property
+    def touching(self) -> tuple[ContactPair, ...]:
+        """The contacts of which points touch."""
+        pairs = contact_pairs(self.assembly.problem)
+        return tuple(pair for pair in pairs if pair.touches(self.state, self.load))
 
-def work_gradient(at: Equilibrated, direction: Direction) -> Derivatives:
-    """Derivatives of the work along a direction that keeps its displacements."""
-    solid_part = _solid(at, direction)
+
+def work_gradients(at: Equilibrated, directions: Sequence[Direction]) -> tuple[Derivatives, ...]:
+    """Derivatives of the works along directions that keep their displacements."""
+    solids = _solids(at, directions)
+    return tuple(
+        part + _of_forces(at, direction) for part, direction in zip(solids, directions, strict=True)
+    )
+
+
+def _of_forces(at: Equilibrated, direction: Direction) -> Derivatives:
+    """The parts of all that acts on the solid."""
     through_positions = _pressure(at, direction)
-    both = solid_part + Derivatives(through_positions, through_positions)
+    both = Derivatives(through_positions, through_positions)
     problem = at.assembly.problem
-    if problem.contacts:
-        both = both + Derivatives(*contact_derivatives(problem, at.state, at.load, direction))
+    for pair in at.touching:
+        both = both + Derivatives(*contact_derivatives(pair, at.state, at.load, direction))
     if at.assembly.springs is not None:
         both = both + Derivatives(
             spring_derivative(problem, at.state.displacement, direction.displacement),
@@ -85,16 +101,20 @@ def work_gradient(at: Equilibrated, direction: Direction) -> Derivatives:
     return both
 
 
-def _solid(at: Equilibrated, direction: Direction) -> Derivatives:
-    problem, state = at.assembly.problem, at.state
-    tets = problem.mesh.tets
-    by_position, by_displacement = np.empty((2, *tets.shape, 3))
+def _solids(at: Equilibrated, directions: Sequence[Direction]) -> list[Derivatives]:
+    """The parts of the solid, of all directions at once: they share its stress and tangent."""
+    mesh, state = at.assembly.problem.mesh, at.state
+    parts = np.empty((2, len(directions), *mesh.tets.shape, 3))
     work_derivatives(
-        solid(problem), np.ascontiguousarray(state.displacement), state.hydrostatic_pressure,
-        direction.displacement, direction.hydrostatic_pressure, by_position, by_displacement,
+        solid(at.assembly.problem), np.ascontiguousarray(state.displacement),
+        state.hydrostatic_pressure, np.stack([each.displacement for each in directions]),
+        np.stack([each.hydrostatic_pressure for each in directions]), *parts,
     )  # fmt: skip
-    size = len(problem.mesh.nodes)
-    return Derivatives(summed(size, tets, by_position), summed(size, tets, by_displacement))
+    size = len(mesh.nodes)
+    return [
+        Derivatives(*(summed(size, mesh.tets, part) for part in pair))
+        for pair in zip(*parts, strict=True)
+    ]
 
 
 def _pressure(at: Equilibrated, direction: Direction) -> Reals:
@@ -111,32 +131,45 @@ def _pressure(at: Equilibrated, direction: Direction) -> Reals:
 
 
 def plane_forces(at: Equilibrated) -> Reals:
-    """Nodal forces (n, 3) in the residual of a body with a moving plane, N.
+    """Nodal forces (n, 3) in the residual at the nodes of the moving plane, N.
 
-    They balance at all nodes but the plane's, where the unknowns are others.
+    There they need not balance, the unknowns being others; elsewhere they are incomplete.
     """
-    problem = at.assembly.problem
+    problem, plane = at.assembly.problem, at.assembly.plane
+    nodes = () if plane is None else plane.nodes
+    around = np.flatnonzero(np.isin(problem.mesh.tets, nodes).any(axis=1))
+    forces, _ = SolidResidual.of(at, around)(solid(problem))
     triangles = problem.mesh.triangles(*problem.pressurised)
-    forces, _ = solid_residual(at, solid(problem))
     forces -= at.pressure * volume_derivative(at.positions, triangles)
-    for pair in contact_pairs(problem):
+    for pair in at.touching:
         forces -= pair.forces(at.state, at.load)
     return forces
 
 
-def solid_residual(at: Equilibrated, body: Solid) -> tuple[Reals, Reals]:
-    """Internal forces (n, 3), N, and constraint violations (v,), mm^3, of a ``body`` at a state.
+@dataclass(frozen=True)
+class SolidResidual:
+    """Residual of the solid over all displacements at a state, of any material of one mesh."""
 
-    The body has the state's mesh and any material.
-    """
-    mesh = at.assembly.problem.mesh
-    everything = number_unknowns(mesh, NO_SUPPORTS)
-    dofs = everything.of_tets(mesh)
-    places = Places(*chunks(mesh), dofs, np.empty((len(dofs), 0), np.int32))
-    residual = np.zeros(everything.size)
-    assemble(
-        body, places, np.ascontiguousarray(at.state.displacement), at.state.hydrostatic_pressure,
-        np.empty((len(mesh.tets), 0, 6)), False, residual, np.zeros(0), np.empty(len(mesh.tets)),
-    )  # fmt: skip
-    forces, violations, _ = everything.expand(residual)
-    return forces, violations
+    at: Equilibrated
+    everything: Numbering
+    places: Places
+
+    @staticmethod
+    def of(at: Equilibrated, elements: NDArray[np.int64] | None = None) -> SolidResidual:
+        """Of all ``elements``, or some."""
+        mesh = at.assembly.problem.mesh
+        everything = number_unknowns(mesh, NO_SUPPORTS)
+        dofs = everything.of_tets(mesh)
+        no_entries = np.empty((len(dofs), 0), np.int32)
+        return SolidResidual(at, everything, Places(*chunks(mesh, elements), dofs, no_entries))
+
+    def __call__(self, body: Solid) -> tuple[Reals, Reals]:
+        """Internal forces (n, 3), N, and constraint violations (v,), mm^3, of a ``body``."""
+        state, elements = self.at.state, len(body.tets)
+        residual = np.zeros(self.everything.size)
+        assemble(
+            body, self.places, np.ascontiguousarray(state.displacement), state.hydrostatic_pressure,
+            np.empty((elements, 0, 6)), False, residual, np.zeros(0), np.empty(elements),
+        )  # fmt: skip
+        forces, violations, _ = self.everything.expand(residual)
+        return forces, violations
