@@ -100,18 +100,18 @@ def environment(checkout: Path) -> dict[str, str]:
 
 def labels() -> list[str]:
     """Names of the designs in their order."""
-    from bellows_design.study.paper import RESULTS
+    from bellows_design.study.paper import TABLE_4
 
-    return [*(result.label for result in RESULTS), "finger"]
+    return [*(result.label for result in TABLE_4), "finger"]
 
 
 def here() -> None:
     """Evaluate the designs whose numbers come in, and write what was found."""
     from bellows_design.design.shipped import load_design
     from bellows_design.evaluation import evaluate
-    from bellows_design.study.paper import RESULTS
+    from bellows_design.study.paper import TABLE_4
 
-    designs = [*(result.build() for result in RESULTS), load_design("finger")]
+    designs = [*(result.build() for result in TABLE_4), load_design("finger")]
     for line in sys.stdin:
         wall, processor = time.perf_counter(), time.process_time()
         found = evaluate(designs[int(line)])
