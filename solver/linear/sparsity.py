@@ -137,10 +137,10 @@ def _same_cells(pointer: Integers, cells: Integers, row: int) -> bool:
     before, start, end = pointer[row - 1], pointer[row], pointer[row + 1]
     if start - before != end - start or start == end:
         return False
+    different = 0
     for k in range(end - start):
-        if cells[before + k] != cells[start + k]:
-            return False
-    return True
+        different += cells[before + k] != cells[start + k]
+    return different == 0
 
 
 @njit(cache=True)

@@ -204,7 +204,7 @@ def main(checkout: str, rounds: str = "3", results: str = "") -> None:
     middle = median(each.ratio for each in found)
     ours, theirs, ratio = commands(other, count)
     print(f"\nMedian ratio of the designs: {middle:.2f}.")
-    print(f"`bellows evaluate prototype_1`: {ours:.2f} s against {theirs:.2f} s, {ratio:.2f} of it.")
+    print(f"`bellows evaluate prototype_1`: {ours:.2f} s against {theirs:.2f} s, {ratio:.2f}.")
     if results:
         command = {"seconds": ours, "other_seconds": theirs, "ratio": ratio}
         record = {"designs": [asdict(each) for each in found], "median_ratio": middle}
