@@ -116,7 +116,7 @@ def incidence(table: Integers, size: int) -> tuple[Integers, Integers]:
     return pointer.astype(np.int32), rows[np.argsort(flat, kind="stable")]
 
 
-@njit(cache=True)
+@njit(cache=True, nogil=True)
 def is_odd(permutation: Integers) -> bool:
     """Whether a permutation (n,) is made of an odd number of swaps."""
     seen = np.zeros(len(permutation), np.bool_)
@@ -131,7 +131,7 @@ def is_odd(permutation: Integers) -> bool:
     return (len(permutation) - cycles) % 2 == 1
 
 
-@njit(cache=True)
+@njit(cache=True, nogil=True)
 def _same_cells(pointer: Integers, cells: Integers, row: int) -> bool:
     """Whether an unknown belongs to the same cells as the one before, as those of one node do."""
     before, start, end = pointer[row - 1], pointer[row], pointer[row + 1]
@@ -143,7 +143,7 @@ def _same_cells(pointer: Integers, cells: Integers, row: int) -> bool:
     return different == 0
 
 
-@njit(cache=True)
+@njit(cache=True, nogil=True)
 def _count_columns(
     dofs: Integers, pointer: Integers, cells: Integers, counts: NDArray[np.int64]
 ) -> None:
@@ -159,7 +159,7 @@ def _count_columns(
                     counts[row + 1] += 1
 
 
-@njit(cache=True)
+@njit(cache=True, nogil=True)
 def _fill_columns(
     dofs: Integers, pointer: Integers, cells: Integers, indptr: NDArray[np.int64], indices: Integers
 ) -> None:
@@ -178,13 +178,13 @@ def _fill_columns(
         indices[indptr[row] : end].sort()
 
 
-@njit(cache=True, parallel=True)
+@njit(cache=True, nogil=True, parallel=True)
 def _locate(indptr: Integers, indices: Integers, dofs: Integers, places: Integers) -> None:
     for cell in prange(len(dofs)):
         _locate_cell(indptr, indices, dofs[cell], places[cell])
 
 
-@njit(cache=True)
+@njit(cache=True, nogil=True)
 def _locate_cell(indptr: Integers, indices: Integers, dofs: Integers, places: Integers) -> None:
     """Positions of one cell's entries: columns in ascending order, each found behind the last.
 
@@ -206,7 +206,7 @@ def _locate_cell(indptr: Integers, indices: Integers, dofs: Integers, places: In
             places[first * width - first * (first + 1) // 2 + last] = place
 
 
-@njit(cache=True)
+@njit(cache=True, nogil=True)
 def _found_from(indices: Integers, start: int, end: int, column: int) -> int:
     """Where a column stands in the ascending ``indices`` from ``start`` to ``end``."""
     for place in range(start, min(start + 2, end)):

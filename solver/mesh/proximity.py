@@ -36,8 +36,7 @@ class Gaps:
 
     def chosen(self, rows: NDArray[np.bool_]) -> Gaps:
         """Some of the pairs."""
-        values = (self.distances, self.starts, self.ends, self.surfaces)
-        return Gaps(*(each[rows] for each in values))
+        return Gaps(self.distances[rows], self.starts[rows], self.ends[rows], self.surfaces[rows])
 
 
 def facing_gaps(
