@@ -71,7 +71,8 @@ def evaluate(
         MeshingError: No usable mesh, or none in time.
     """
     _check(design, accuracy_percent, pressures)
-    computation = started(design, *choose(design, model), pressures, progress, budget)
+    body, reason = choose(design, model)
+    computation = started(design, body, reason, pressures, progress, budget, body.levels - 1)
     while not _enough(computation, accuracy_percent) and (plan := affordable_plan(computation)):
         computation = refined(computation, progress, plan)
     return _answered(computation, open_question, progress)
