@@ -13,7 +13,7 @@ from bellows_design.analysis.evaluation import Evaluation, LoadedState
 from bellows_design.analysis.whole_actuator import added_by_ends, ends_factor
 from solver import Peak
 
-REACH = 0.15
+REACH = 0.2
 """Distance in design space up to which ends and errors are carried along."""
 
 ANGLE_GROWTH, STRESS_GROWTH = 0.08, 0.6

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 from typing import Any
 
@@ -15,14 +16,15 @@ LAW = ("model", "mu", "alpha", "higher", "constants")
 
 
 def distance(one: Design, other: Design) -> float:
-    """Largest relative difference of two designs' numbers; infinite where other things differ.
+    """Root of the sum of squares of the relative differences of two designs' numbers.
 
-    Port, printer and limits do not count, nor do lengths of the actuator's ends.
+    Infinite where other things differ. Port, printer and limits do not count, nor do lengths of the
+    actuator's ends.
     """
     ours, theirs = _numbers(one), _numbers(other)
     if ours.keys() != theirs.keys():
         return float("inf")
-    return max(_apart(value, theirs[name]) for name, value in ours.items())
+    return math.hypot(*(_apart(value, theirs[name]) for name, value in ours.items()))
 
 
 def _numbers(design: Design) -> dict[str, Any]:

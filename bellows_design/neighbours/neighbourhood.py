@@ -128,7 +128,7 @@ class Neighbourhood:
         apart = self.distance(design)
         if apart > REACH:
             raise NotReached(
-                f"it is too far away: a number differs by {100 * apart:.3g} %, above the "
+                f"it is too far away: by {100 * apart:.3g} % in its numbers, above the "
                 f"{100 * REACH:g} % up to which a neighbour's ends and errors hold"
             )
 

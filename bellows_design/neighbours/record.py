@@ -25,7 +25,7 @@ class NeighbourEvaluation(LoadedState):
     Attributes:
         design: The design evaluated.
         anchor: The ordinary evaluation that the mesh and what is carried along come from.
-        distance: Largest relative difference of the numbers of both designs.
+        distance: Of both designs, see ``neighbours.distance``.
         steps: Solves on the way; more than one where designs in between were needed.
         fallback: Why the design was evaluated ordinarily instead; empty if it was not. ``anchor``
             is that evaluation then.
