@@ -18,6 +18,7 @@ from bellows_design.neighbours.distance import distance
 from bellows_design.neighbours.equilibrium import Equilibrium
 from bellows_design.neighbours.record import NeighbourEvaluation
 from bellows_design.progress import SILENCE, Progress
+from solver.errors import SolverError
 
 if TYPE_CHECKING:
     from solver import Solution
@@ -27,7 +28,7 @@ MOST_HALVINGS = 3
 """Of the way to a design that cannot be reached at once."""
 
 MOST_STATES = 64
-"""Solved designs that are remembered; the oldest are forgotten first."""
+"""Solved designs that are remembered besides the first; the oldest are forgotten first."""
 
 
 class NotReached(BellowsError):
@@ -98,9 +99,10 @@ class Neighbourhood:
             self._require_near(design)
             way = self._reached(design, self._nearest(design), MOST_HALVINGS)
             found = self._judged(way)
-        except BellowsError as reason:
+        except (BellowsError, SolverError) as reason:
             return ordinary(design, self.anchor.model.name, str(reason), progress, budget)
-        self._solved = [*self._solved, *way.solved][-MOST_STATES:]
+        anchor, *others = self._solved
+        self._solved = [anchor, *[*others, *way.solved][-MOST_STATES:]]
         return replace(found, seconds=Seconds(solve=time.perf_counter() - began))
 
     def equilibrium(self, found: NeighbourEvaluation) -> Equilibrium:
