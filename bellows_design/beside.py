@@ -94,6 +94,9 @@ class _Unshown:
         """Raise ``Abandoned`` if that is so."""
         self.stage("")
 
+    def note(self, text: str) -> None:
+        """Ignored."""
+
 
 @contextmanager
 def beside(compute: Callable[[Progress], Result], at_once: bool) -> Iterator[Beside[Result]]:

@@ -53,7 +53,7 @@ def machine() -> Machine:
     import psutil
 
     return Machine(
-        processor=_processor(),
+        processor=processor(),
         cores=psutil.cpu_count(),
         memory_gib=memory_gib(),
         load_average=os.getloadavg()[0] if hasattr(os, "getloadavg") else None,
@@ -124,7 +124,7 @@ def _limit_in(file: Path) -> float | None:
         return None
 
 
-def _processor() -> str:
+def processor() -> str:
     """The processor's name, as far as the platform states it."""
     try:
         lines = Path("/proc/cpuinfo").read_text("utf-8", "replace").splitlines()

@@ -14,6 +14,7 @@ from bellows_design.progress import SILENCE, Progress
 if TYPE_CHECKING:
     from bellows_design.analysis.evaluation import Evaluation, LoadedState
     from bellows_design.approval import Verdict
+    from bellows_design.store.store import Store
     from printers.report import PrintabilityReport
 
 
@@ -45,6 +46,7 @@ class Outcome:
             **self.verdict.to_dict(),
             "folder": None if self.folder is None else str(self.folder),
             "withdrawn": None if self.withdrawn is None else str(self.withdrawn),
+            "from_cache": self.evaluation.from_cache or None,
             "check": check_dict(self.design, self.report),
             "evaluation": self.evaluation.to_dict(),
         }
@@ -55,6 +57,7 @@ def run(
     output_root: Path,
     progress: Progress = SILENCE,
     budget: Budget = DEFAULT,
+    store: Store | None = None,
 ) -> Outcome:
     """Build, check and evaluate ``design``, decide, and export it if it is approved.
 
@@ -68,6 +71,7 @@ def run(
             approved, and an earlier export there is withdrawn if it is not.
         progress: Listens to stages and load.
         budget: Memory (GiB) and seconds that a mesh may take.
+        store: Where evaluations are looked for and kept; None for none.
 
     Returns:
         Printability, evaluation, verdict, and what became of the files.
@@ -78,9 +82,9 @@ def run(
         MeshingError: No usable mesh, or none in time.
         OSError: The files could not be written; then nothing has changed.
     """
-    from bellows_design.analysis.evaluate import evaluate
     from bellows_design.approval import decide, open_question
     from bellows_design.export.approved import require_place
+    from bellows_design.store.lookup import evaluated
 
     def question(state: LoadedState) -> str:
         return open_question(design, report, state)
@@ -90,7 +94,9 @@ def run(
     part = build_part(design)
     progress.stage("check")
     report = check(design, part)
-    evaluation = evaluate(design, progress=progress, budget=budget, open_question=question)
+    evaluation = evaluated(
+        design, progress=progress, budget=budget, open_question=question, store=store
+    )
     verdict = decide(design, report, evaluation)
     return _settled(Outcome(design, report, evaluation, verdict), part, output_root)
 

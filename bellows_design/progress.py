@@ -32,6 +32,9 @@ class Progress(Protocol):
         ``spent``: fraction of the solve's budget of steps and seconds.
         """
 
+    def note(self, text: str) -> None:
+        """Something that is worth knowing afterwards, too."""
+
 
 @dataclass(frozen=True)
 class Silence:
@@ -43,6 +46,9 @@ class Silence:
     def load(self, fraction: float, angle: float, spent: float = 0.0) -> None:
         """Ignored."""
 
+    def note(self, text: str) -> None:
+        """Ignored."""
+
 
 SILENCE: Progress = Silence()
 """The default where a run takes a ``Progress``."""
@@ -50,11 +56,15 @@ SILENCE: Progress = Silence()
 
 @dataclass
 class ProgressLines:
-    """Progress as lines of text, given to ``write``; seconds are counted by ``clock``."""
+    """Progress as lines of text, given to ``write``; seconds are counted by ``clock``.
+
+    Notes go to ``write_lasting``, where ``write`` overwrites the line before.
+    """
 
     write: Callable[[str], None]
     pause: float = PAUSE
     clock: Callable[[], float] = time.monotonic
+    write_lasting: Callable[[str], None] | None = None
     _start: float = field(init=False)
     _written: float = field(init=False, default=-1e9)
     _stage: str = field(init=False, default="")
@@ -74,6 +84,10 @@ class ProgressLines:
             budget = f", {100 * spent:.0f} % of its budget spent" if spent >= WORTH_NAMING else ""
             self._write(f"{self._stage}: {100 * fraction:.0f} % of the load{turned}{budget}")
 
+    def note(self, text: str) -> None:
+        """Write a line that stays."""
+        (self.write_lasting or self.write)(f"[{self.clock() - self._start:6.1f} s] {text}")
+
     def _write(self, text: str) -> None:
         self._written = self.clock()
         self.write(f"[{self._written - self._start:6.1f} s] {text}")
@@ -86,7 +100,12 @@ def on_stderr(stream: TextIO | None = None) -> Iterator[Progress]:
     if stream.isatty():
         from rich.console import Console
 
-        with Console(file=stream).status("") as status:
-            yield ProgressLines(lambda text: status.update(text.replace("[", r"\[")), pause=0.1)
+        console = Console(file=stream, highlight=False)
+        with console.status("") as status:
+            yield ProgressLines(
+                lambda text: status.update(text.replace("[", r"\[")),
+                pause=0.1,
+                write_lasting=lambda text: console.print(text, markup=False, soft_wrap=True),
+            )
     else:
         yield ProgressLines(lambda text: print(text, file=stream, flush=True))

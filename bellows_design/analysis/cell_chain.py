@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bellows_design.design.bellows_parameters import BellowsParameters
-from bellows_design.geometry.actuator import GAP_MIDDLE, OUTSIDE, ROOT, SYMMETRY, TIP
+from bellows_design.geometry.face_names import GAP_MIDDLE, OUTSIDE, ROOT, SYMMETRY, TIP
 from solver import Mesh, Solution
 
 Array = NDArray[np.float64]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 from bellows_design.analysis.models import AnalysisModel
@@ -51,25 +52,46 @@ class SolvedMesh:
 
 
 @dataclass(frozen=True)
+class Body:
+    """The solid of a design that is meshed for a model, built when it is first asked for."""
+
+    design: Design
+    model: AnalysisModel
+
+    @cached_property
+    def solid(self) -> NamedSolid:
+        """The solid. Raises ``GeometryError`` if the CAD kernel cannot build it."""
+        return self.model.solid(self.design)
+
+
+@dataclass(frozen=True)
 class Computation:
     """What was solved for a design under pressure, and what is needed to go on.
 
     ``solved`` holds the meshes, the finest last; ``ends`` the solution of a short actuator of one
     bubble, or of a bubble without neighbours, on the unit cell's coarsest mesh size; ``pressures``
     (MPa) those asked for besides the design's; ``reason`` why this model was chosen; ``ends_peak``
-    the highest von Mises Cauchy stress in the ends.
+    the highest von Mises Cauchy stress in the ends; ``out_of_time`` that a finer mesh was wanted
+    for which the budget's time did not suffice.
     """
 
     design: Design
     model: AnalysisModel
     reason: str
-    solid: NamedSolid
+    body: Body
     pressures: tuple[float, ...] = ()
     budget: Budget = DEFAULT
     solved: tuple[SolvedMesh, ...] = ()
     ends: Solution | None = None
     ends_peak: Peak | None = None
     seconds: Seconds = Seconds()
+    out_of_time: bool = False
+
+    @property
+    def in_time(self) -> bool:
+        """True if it would be the same however long it took: no limit of time ended anything."""
+        stopped = any(each.stopped_by == "budget" for each in self.all_solutions)
+        return not stopped and not self.out_of_time
 
     @property
     def seconds_left(self) -> float:

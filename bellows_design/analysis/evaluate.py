@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import astuple
+from dataclasses import astuple, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -16,7 +16,7 @@ from bellows_design.analysis.evaluation import (
     MeshSize,
     SolverEffort,
 )
-from bellows_design.analysis.mesh_sequence import affordable_plan, refined, started
+from bellows_design.analysis.mesh_sequence import affordable_plan, lacks_time, refined, started
 from bellows_design.analysis.models import UNIT_CELL, choose
 from bellows_design.analysis.whole_actuator import (
     curve_readings,
@@ -73,25 +73,46 @@ def evaluate(
     _check(design, accuracy_percent, pressures)
     body, reason = choose(design, model)
     computation = started(design, body, reason, pressures, progress, budget, body.levels - 1)
-    while not _enough(computation, accuracy_percent) and (plan := affordable_plan(computation)):
-        computation = refined(computation, progress, plan)
-    return _answered(computation, open_question, progress)
-
-
-def _answered(
-    computation: Computation, open_question: Callable[[LoadedState], str], progress: Progress
-) -> Evaluation:
-    """The evaluation once its error estimates answer the question, or refinement does not help."""
-    state, estimates = loaded_state(computation), []
-    while question := open_question(state):
-        estimates.append(state.error_estimate.max_von_mises_percent)
-        plan = affordable_plan(computation) if _promising(estimates) else None
+    while not _enough(computation, accuracy_percent):
+        plan = affordable_plan(computation)
         if plan is None:
+            late = computation.converged and lacks_time(computation)
+            computation = replace(computation, out_of_time=computation.out_of_time or late)
             break
-        progress.stage(f"a finer mesh, because {question}")
         computation = refined(computation, progress, plan)
-        state = loaded_state(computation)
-    return evaluation_of(computation, state)
+    return answered(evaluation_of(computation), open_question, progress)
+
+
+def finer(found: Evaluation, question: str, progress: Progress) -> Evaluation | None:
+    """The same on one more mesh, because of ``question``; None if the budget has none for it.
+
+    Raises ``MeshingError``.
+    """
+    plan = affordable_plan(found.computation)
+    if plan is None:
+        return None
+    progress.stage(f"a finer mesh, because {question}")
+    return evaluation_of(refined(found.computation, progress, plan))
+
+
+def answered(
+    found: Evaluation,
+    open_question: Callable[[LoadedState], str],
+    progress: Progress = SILENCE,
+    finer: Callable[[Evaluation, str, Progress], Evaluation | None] = finer,
+) -> Evaluation:
+    """The evaluation once its error estimates answer the question, or refinement does not help.
+
+    ``finer`` gives the same on one more mesh, or None.
+    """
+    estimates: list[float | None] = []
+    while question := open_question(found):
+        estimates.append(found.error_estimate.max_von_mises_percent)
+        next_one = finer(found, question, progress) if _promising(estimates) else None
+        if next_one is None:
+            break
+        found = next_one
+    return found
 
 
 MOST_FINER_MESHES = 4
@@ -109,10 +130,10 @@ def _promising(estimates: Sequence[float | None]) -> bool:
     return len(known) < 3 or known[-1] < STALLED * max(known[-3:-1])
 
 
-def evaluation_of(computation: Computation, state: LoadedState | None = None) -> Evaluation:
-    """The record of a computation; ``state`` is its loaded state, where that is at hand."""
+def evaluation_of(computation: Computation) -> Evaluation:
+    """The record of a computation."""
     return Evaluation(
-        **vars(state or loaded_state(computation)),
+        **vars(loaded_state(computation)),
         design=computation.design,
         model=computation.model,
         reason=computation.reason,

@@ -129,6 +129,8 @@ class Evaluation(LoadedState):
         path: Readings along the load path.
         curve: Readings at the pressures asked for; the design's is the last.
         computation: The solutions these values were taken from.
+        from_cache: When it was computed (UTC), where it comes from the store of results; empty
+            where it was computed now.
     """
 
     design: Design
@@ -140,6 +142,7 @@ class Evaluation(LoadedState):
     path: tuple[Reading, ...]
     curve: tuple[Reading, ...]
     computation: Computation = field(repr=False, compare=False)
+    from_cache: str = field(default="", compare=False)
 
     @property
     def warnings(self) -> tuple[str, ...]:

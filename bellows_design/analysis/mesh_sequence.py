@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from bellows_design.analysis.computation import Computation, Seconds, SolvedMesh
+from bellows_design.analysis.computation import Body, Computation, Seconds, SolvedMesh
 from bellows_design.analysis.models import FREE_CELL, HALF, UNIT_CELL, AnalysisModel, shortened
 from bellows_design.beside import Beside, beside
 from bellows_design.budget import DEFAULT, Budget
@@ -71,9 +71,10 @@ def started(
     with beside(one_thread()(short_actuator) if at_once else short_actuator, at_once) as ends:
         progress.stage(f"geometry of the {model.name}")
         start = time.perf_counter()
-        solid = model.solid(design)
+        body = Body(design, model)
+        _ = body.solid  # now, so that its time is counted
         spent = Seconds(geometry=time.perf_counter() - start)
-        blank = Computation(design, model, reason, solid, asked, budget, seconds=spent)
+        blank = Computation(design, model, reason, body, asked, budget, seconds=spent)
         first = _refined_beside(ends, blank, progress)
         if model is UNIT_CELL and first.converged:
             return _with_ends(first, meshes, ends, progress)
@@ -108,7 +109,7 @@ def refined(
     solution = _solved_on(mesh, computation, progress)
     spent = Seconds(mesh=meshed - began, solve=time.perf_counter() - meshed)
     if solution.stopped_by == "budget" and computation.solved and computation.converged:
-        return replace(computation, seconds=computation.seconds + spent)
+        return replace(computation, seconds=computation.seconds + spent, out_of_time=True)
     return replace(
         computation,
         solved=(*computation.solved, SolvedMesh(solution, peak_von_mises(solution))),
@@ -120,7 +121,7 @@ def next_plan(computation: Computation) -> PlannedMesh:
     """The mesh after the finest, whatever it takes."""
     from bellows_design.analysis.mesh_plan import finer_plan, first_plan
 
-    solid, design = computation.solid, computation.design
+    solid, design = computation.body.solid, computation.design
     if not computation.solved:
         return first_plan(solid, design)
     return finer_plan(solid, design, computation.finest, computation.model.refinement)
@@ -128,10 +129,15 @@ def next_plan(computation: Computation) -> PlannedMesh:
 
 def affordable_plan(computation: Computation) -> PlannedMesh | None:
     """The mesh after the finest; None without a solution to refine, or beyond the budget."""
-    if not computation.converged or _next_seconds(computation) > computation.seconds_left:
+    if not computation.converged or lacks_time(computation):
         return None
     plan = next_plan(computation)
     return plan if plan.fits(computation.budget) else None
+
+
+def lacks_time(computation: Computation) -> bool:
+    """Whether a solve on the next mesh would take longer than is left of the budget."""
+    return _next_seconds(computation) > computation.seconds_left
 
 
 def _next_seconds(computation: Computation) -> float:
@@ -180,7 +186,7 @@ def _with_ends(
     stubs of root and tip.
     """
     from bellows_design.analysis.wall_contact import image_gap
-    from bellows_design.geometry.actuator import CAVITY
+    from bellows_design.geometry.face_names import CAVITY
 
     inner = image_gap(first.finest, CAVITY)
     if inner is not None and inner <= 0:
@@ -197,7 +203,12 @@ def _with_ends(
         with_ends = _with_free_ends(replace(with_ends, ends=None, ends_peak=None), progress)
     if with_ends.converged:
         more = finer.seconds - first.seconds
-        with_ends = replace(with_ends, solved=finer.solved, seconds=with_ends.seconds + more)
+        with_ends = replace(
+            with_ends,
+            solved=finer.solved,
+            seconds=with_ends.seconds + more,
+            out_of_time=with_ends.out_of_time or finer.out_of_time,
+        )
     return _refined_to(meshes, with_ends, progress)
 
 
@@ -247,13 +258,14 @@ def _short_actuator(
 
     began = time.perf_counter()
     short = shortened(design)
-    solid = HALF.solid(short)
+    body = Body(short, HALF)
+    solid = body.solid
     built = time.perf_counter()
     progress.stage("ends: mesh")
     mesh = first_plan(solid, short).made(budget)
     meshed = time.perf_counter()
     progress.stage("ends: an actuator of one bubble")
-    blank = Computation(short, HALF, "", solid, pressures, budget)
+    blank = Computation(short, HALF, "", body, pressures, budget)
     solution = _solved_roughly(short, HALF.problem(short, mesh), blank, progress)
     return Ends(solution, Seconds(built - began, meshed - built, time.perf_counter() - meshed))
 

@@ -79,7 +79,7 @@ def _cell_problem(design: Design, mesh: Mesh) -> Problem:
 
     Behind each of these planes stands the cell's mirror image, which its walls may touch.
     """
-    from bellows_design.geometry.actuator import OUTSIDE
+    from bellows_design.geometry.face_names import OUTSIDE
     from solver import Contact
 
     neighbour = Contact(OUTSIDE, _penetration(design))
@@ -93,7 +93,7 @@ def _free_cell_problem(design: Design, mesh: Mesh) -> Problem:
 
 def _inner_contacts(design: Design) -> tuple[Contact, ...]:
     """Of a chamber's opposite walls, along x and across."""
-    from bellows_design.geometry.actuator import CAVITY
+    from bellows_design.geometry.face_names import CAVITY
     from solver import Contact
 
     depth = _penetration(design)
@@ -106,7 +106,7 @@ def _penetration(design: Design) -> float:
 
 
 def _cell(design: Design, mesh: Mesh, contacts: tuple[Contact, ...]) -> Problem:
-    from bellows_design.geometry.actuator import BUBBLE_MIDDLE, CAVITY, GAP_MIDDLE, SYMMETRY
+    from bellows_design.geometry.face_names import BUBBLE_MIDDLE, CAVITY, GAP_MIDDLE, SYMMETRY
     from solver import Problem, SlenderAxis, Supports
 
     end = design.bellows.pitch / 2
@@ -124,7 +124,7 @@ def _cell(design: Design, mesh: Mesh, contacts: tuple[Contact, ...]) -> Problem:
 
 def _half_problem(design: Design, mesh: Mesh) -> Problem:
     """Root face clamped, symmetry about y = 0, pressure on the whole cavity."""
-    from bellows_design.geometry.actuator import SYMMETRY
+    from bellows_design.geometry.face_names import SYMMETRY
 
     return _actuator(design, mesh, {SYMMETRY: 1})
 
@@ -135,7 +135,7 @@ def _full_problem(design: Design, mesh: Mesh) -> Problem:
 
 
 def _actuator(design: Design, mesh: Mesh, symmetry: dict[str, int]) -> Problem:
-    from bellows_design.geometry.actuator import CAVITY, ROOT
+    from bellows_design.geometry.face_names import CAVITY, ROOT
     from solver import Problem, Supports
 
     return Problem(

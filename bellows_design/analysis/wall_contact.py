@@ -15,7 +15,7 @@ import numpy as np
 
 from bellows_design.analysis.cell_chain import chain
 from bellows_design.design.bellows_parameters import BellowsParameters
-from bellows_design.geometry.actuator import CAVITY, OUTSIDE, ROOT, SYMMETRY, TIP
+from bellows_design.geometry.face_names import CAVITY, OUTSIDE, ROOT, SYMMETRY, TIP
 from solver import Mesh
 from solver.mesh.proximity import OPPOSING, Gaps, facet_normals, facing_gaps
 

@@ -99,6 +99,7 @@ def evaluate(
     accuracy: float | None,
     vtu: Path | None,
     limits: BudgetOptions,
+    cached: bool,
 ) -> Answer:
     """Compute the design under ``pressure``, to estimated errors of ``accuracy`` percent."""
     from bellows_design.cli.pressures import parse_pressures
@@ -112,16 +113,19 @@ def evaluate(
     require_file(vtu, ".vtu")
     budget = limits.budget()
     from bellows_design.analysis import evaluate as analysis
+    from bellows_design.store import Store, evaluated
 
+    store = Store.usual() if cached else None
     with on_stderr() as progress:
-        found = analysis.evaluate(chosen, model, accuracy, pressures, progress, budget=budget)
+        found = evaluated(chosen, model, accuracy, pressures, progress, budget, store=store)
         writers = () if vtu is None else (lambda: analysis.write_vtu(found, vtu),)
         failed = unwritten(*writers)
     status = DONE if found.converged else NOT_SOLVED
-    return Answer(found.to_dict(), evaluation_table(found), status, failed)
+    content = found.to_dict() | {"from_cache": found.from_cache or None}
+    return Answer(content, evaluation_table(found), status, failed)
 
 
-def run(options: DesignOptions, output: Path, limits: BudgetOptions) -> Answer:
+def run(options: DesignOptions, output: Path, limits: BudgetOptions, cached: bool) -> Answer:
     """Take the design through all stages; what is approved is written below ``output``."""
     from bellows_design import pipeline
     from bellows_design.progress import on_stderr
@@ -132,8 +136,11 @@ def run(options: DesignOptions, output: Path, limits: BudgetOptions) -> Answer:
     chosen = options.load(rename=True)
     chosen.profile()
     budget = limits.budget()
+    from bellows_design.store import Store
+
+    store = Store.usual() if cached else None
     with on_stderr() as progress:
-        outcome = pipeline.run(chosen, output, progress, budget)
+        outcome = pipeline.run(chosen, output, progress, budget, store)
     refused = REFUSED if outcome.evaluation.converged else NOT_SOLVED
     status = DONE if outcome.verdict.approved else refused
     return Answer(outcome.to_dict(), outcome_table(outcome), status)
@@ -171,3 +178,16 @@ def benchmark(
     )
     status = DONE if study.converged else NOT_SOLVED
     return Answer(content, benchmark_tables(study), status, failed)
+
+
+def cache(clear: bool) -> Answer:
+    """Say what is kept of earlier evaluations; remove it if ``clear`` says so."""
+    from bellows_design.reports.cache import cache_table
+    from bellows_design.store import Store
+
+    store = Store.usual()
+    before = store.holdings()
+    if clear:
+        store.clear()
+    content = before.to_dict() | {"cleared": clear}
+    return Answer(content, cache_table(before, clear))

@@ -35,6 +35,7 @@ from bellows_design.cli.options import (
     Memory,
     Meshes,
     MeshSeconds,
+    NoCache,
     Pressure,
     Printer,
     Settings,
@@ -131,12 +132,14 @@ def evaluate(
     memory: Memory = None,
     mesh_seconds: MeshSeconds = None,
     seconds: TimeLimit = None,
+    no_cache: NoCache = False,
     as_json: AsJson = False,
 ) -> None:
     """Compute bending angle and stress under pressure."""
     options = DesignOptions(name, tuple(settings or ()))
     limits = BudgetOptions(memory, mesh_seconds, seconds)
-    answer(lambda: actions.evaluate(options, model.value, pressure, accuracy, vtu, limits), as_json)
+    asked = (options, model.value, pressure, accuracy, vtu, limits)
+    answer(lambda: actions.evaluate(*asked, cached=not no_cache), as_json)
 
 
 @app.command()
@@ -148,12 +151,13 @@ def run(
     memory: Memory = None,
     mesh_seconds: MeshSeconds = None,
     seconds: TimeLimit = None,
+    no_cache: NoCache = False,
     as_json: AsJson = False,
 ) -> None:
     """Design, check, evaluate, decide, and export what is approved."""
     options = DesignOptions(name, tuple(settings or ()), printer)
     limits = BudgetOptions(memory, mesh_seconds, seconds)
-    answer(lambda: actions.run(options, output, limits), as_json)
+    answer(lambda: actions.run(options, output, limits, not no_cache), as_json)
 
 
 @app.command()
@@ -177,6 +181,15 @@ def benchmark(
     options = DesignOptions(name, tuple(settings or ()))
     models, limits = [each.value for each in model or ()], BudgetOptions(memory, mesh_seconds)
     answer(lambda: actions.benchmark(options, models, meshes, output, plot, limits), as_json)
+
+
+@app.command()
+def cache(
+    clear: Annotated[bool, typer.Option("--clear", help="Remove all of it.")] = False,
+    as_json: AsJson = False,
+) -> None:
+    """Say what is kept of earlier evaluations, and where."""
+    answer(lambda: actions.cache(clear), as_json)
 
 
 @app.command()

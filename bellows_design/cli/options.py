@@ -64,6 +64,10 @@ TimeLimit = Annotated[
         "last good state, and says so.",
     ),
 ]
+NoCache = Annotated[
+    bool,
+    typer.Option("--no-cache", help="Compute anew, and keep nothing: see bellows cache."),
+]
 Meshes = Annotated[
     int | None,
     typer.Option(metavar="N", help="Meshes of each; without it one more than evaluate uses."),

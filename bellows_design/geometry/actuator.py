@@ -18,6 +18,16 @@ from bellows_design.design.indent import Indent
 from bellows_design.design.lengths import FULL_ROUND_SNAP, SMALLEST_FEATURE, snapped_radius
 from bellows_design.design.port import Port
 from bellows_design.geometry.channel_ends import CHANNEL_ENDS
+from bellows_design.geometry.face_names import (
+    BUBBLE_MIDDLE,
+    CAVITY,
+    GAP_MIDDLE,
+    OUTSIDE,
+    PORT,
+    ROOT,
+    SYMMETRY,
+    TIP,
+)
 from bellows_design.geometry.named_solids import (
     GeometryError,
     NamedSolid,
@@ -29,15 +39,6 @@ from bellows_design.geometry.named_solids import (
     rounded_box,
 )
 
-OUTSIDE, CAVITY, ROOT, TIP, SYMMETRY, PORT = (
-    "outside",
-    "cavity",
-    "root",
-    "tip",
-    "symmetry",
-    "port",
-)
-BUBBLE_MIDDLE, GAP_MIDDLE = "bubble_middle", "gap_middle"
 LOOSEST = 0.02
 """mm. A solid whose faces meet less exactly has no mesh that keeps the tolerance of an STL."""
 

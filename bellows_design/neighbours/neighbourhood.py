@@ -6,7 +6,7 @@ import time
 from dataclasses import dataclass, fields, replace
 from typing import TYPE_CHECKING
 
-from bellows_design.analysis.computation import Computation, Seconds, SolvedMesh
+from bellows_design.analysis.computation import Body, Computation, Seconds, SolvedMesh
 from bellows_design.analysis.evaluate import effort, evaluate, loaded_state, mesh_size
 from bellows_design.analysis.evaluation import Evaluation, LoadedState
 from bellows_design.budget import DEFAULT, Budget
@@ -186,8 +186,10 @@ class Neighbourhood:
 
     def _computation(self, design: Design, solved: SolvedMesh) -> Computation:
         """That of a design's cells on the moved mesh alone, without ends."""
+        former = self.anchor.computation
+        body = Body(design, former.model)
         return replace(
-            self.anchor.computation, design=design, solved=(solved,), ends=None, ends_peak=None
+            former, design=design, body=body, solved=(solved,), ends=None, ends_peak=None
         )
 
 

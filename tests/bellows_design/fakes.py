@@ -66,7 +66,7 @@ class FakeEvaluation(Evaluation):
     seconds: Seconds = field(default_factory=Seconds)
     path: tuple[Reading, ...] = ()
     curve: tuple[Reading, ...] = ()
-    computation: Any = None
+    computation: Any = field(default_factory=lambda: SimpleNamespace(in_time=False))
 
 
 def fake_report(*rules: RuleResult) -> PrintabilityReport:

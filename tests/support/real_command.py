@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
-ITS_OWN = ("COLUMNS", "HOME", "NUMBA_CACHE_DIR", "PATH", "TMPDIR", "VIRTUAL_ENV")
+ITS_OWN = ("BELLOWS_CACHE", "COLUMNS", "HOME", "NUMBA_CACHE_DIR", "PATH", "TMPDIR", "VIRTUAL_ENV")
 """Variables that a test passes on; all others might disturb it."""
 
 

@@ -1,0 +1,13 @@
+"""What the faces of bodies are called; apart from the solids, so that nobody waits for CAD."""
+
+from __future__ import annotations
+
+OUTSIDE, CAVITY, ROOT, TIP, SYMMETRY, PORT = (
+    "outside",
+    "cavity",
+    "root",
+    "tip",
+    "symmetry",
+    "port",
+)
+BUBBLE_MIDDLE, GAP_MIDDLE = "bubble_middle", "gap_middle"

@@ -1,0 +1,104 @@
+"""What the commands say of kept results, and that an approval is the same with them."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+from kept import LOW_BUBBLES
+
+from bellows_design.analysis.evaluation import Evaluation
+
+Bellows = Callable[..., tuple[int, str, str]]
+SMALL = ("prototype_1", *(word for setting in LOW_BUBBLES for word in ("--set", setting)))
+
+
+@pytest.fixture
+def computed(monkeypatch: pytest.MonkeyPatch, evaluation: Evaluation) -> list[str]:
+    """The designs that were computed."""
+    names: list[str] = []
+
+    def evaluate(design: Any, *_: Any, **__: Any) -> Evaluation:
+        names.append(design.name)
+        return evaluation
+
+    monkeypatch.setattr("bellows_design.analysis.evaluate.evaluate", evaluate)
+    return names
+
+
+def test_the_second_evaluation_is_the_first_one(bellows: Bellows, computed: list[str]) -> None:
+    (status, first, err), again = (bellows("evaluate", *SMALL, "--json") for _ in range(2))
+    assert (status, again[0], len(computed)) == (0, 0, 1)
+    fresh, kept = json.loads(first), json.loads(again[1])
+    assert fresh.pop("from_cache") is None and "--no-cache" not in err
+    time = kept.pop("from_cache")
+    assert kept == fresh
+    assert f"computed on {time} and kept; --no-cache computes it anew" in again[2]
+
+
+def test_no_cache_neither_looks_nor_keeps(
+    bellows: Bellows, computed: list[str], own_cache: Path
+) -> None:
+    assert bellows("evaluate", *SMALL, "--no-cache")[0] == 0
+    assert not own_cache.exists()
+    bellows("evaluate", *SMALL)
+    status, out, _ = bellows("evaluate", *SMALL, "--no-cache", "--json")
+    assert status == 0 and json.loads(out)["from_cache"] is None
+    assert len(computed) == 3
+
+
+def test_a_cache_that_cannot_be_written_is_a_note_on_stderr(
+    bellows: Bellows, computed: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("BELLOWS_CACHE", "/dev/null")
+    status, out, err = bellows("evaluate", *SMALL, "--json")
+    assert status == 0 and json.loads(out)["from_cache"] is None
+    assert "the result is not kept: " in err and "/dev/null" in err
+
+
+def test_paraview_s_file_is_written_from_what_is_kept(
+    bellows: Bellows, computed: list[str], tmp_path: Path
+) -> None:
+    bellows("evaluate", *SMALL, "--vtu", str(tmp_path / "fresh.vtu"))
+    bellows("evaluate", *SMALL, "--vtu", str(tmp_path / "kept.vtu"))
+    assert len(computed) == 1
+    assert (tmp_path / "fresh.vtu").read_bytes() == (tmp_path / "kept.vtu").read_bytes()
+
+
+def test_the_cache_says_what_it_holds_and_is_cleared(
+    bellows: Bellows, computed: list[str], own_cache: Path
+) -> None:
+    empty = json.loads(bellows("cache", "--json")[1])
+    assert (empty["results"], empty["oldest"], empty["cleared"]) == (0, None, False)
+    bellows("evaluate", *SMALL)
+    held = json.loads(bellows("cache", "--json")[1])
+    assert (held["folder"], held["results"], held["usable"]) == (str(own_cache), 1, 1)
+    assert 0 < held["size_mib"] < held["limit_mib"] and held["oldest"] == held["newest"]
+    status, out, _ = bellows("cache", "--clear")
+    assert status == 0 and str(own_cache) in out and "removed" in out
+    assert json.loads(bellows("cache", "--json")[1])["results"] == 0
+    assert "–" in bellows("cache")[1]
+
+
+@pytest.mark.slow
+def test_an_approval_is_the_same_from_a_kept_evaluation(bellows: Bellows, tmp_path: Path) -> None:
+    design = ("finger", "--set", "length=18", "--set", "number_of_bubbles=2")
+    answers = []
+    for folder in ("first", "second"):
+        status, out, _ = bellows("run", *design, "--output", str(tmp_path / folder), "--json")
+        assert status == 0
+        answers.append(json.loads(out))
+    assert answers[0]["from_cache"] is None and answers[1]["from_cache"]
+    assert answers[0]["evaluation"] == answers[1]["evaluation"]
+    manifests = [
+        next((tmp_path / folder).rglob("manifest.json")).read_bytes()
+        for folder in ("first", "second")
+    ]
+    first, second = (json.loads(manifest) for manifest in manifests)
+    for manifest in (first, second):
+        manifest.pop("files")  # STEP files bear the time of writing
+    assert first == second
+    assert b"from_cache" not in manifests[1]

@@ -1,0 +1,72 @@
+"""What has a part in a result has a part in its key, and nothing else."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from kept import key, small
+
+from bellows_design.budget import DEFAULT
+from bellows_design.store.key import digest
+from bellows_design.store.surroundings import settings, sources_hash, surroundings
+
+USUAL = key(small())
+
+
+@pytest.mark.parametrize(
+    "other",
+    [
+        key(small("bubble_width=13.9")),
+        key(small("load.pressure=0.021")),
+        key(small("material.valid_strain=[-0.1, 0.2]")),
+        key(small("material.elongation_at_break=500")),
+        key(small(), "half"),
+        key(small(), accuracy=3.0),
+        key(small(), pressures=(0.01,)),
+        key(small(), budget=replace(DEFAULT, memory=0.9)),
+        key(small(), budget=replace(DEFAULT, seconds=10.0)),
+        key(small(), budget=replace(DEFAULT, mesh_seconds=10.0)),
+        key(small(), further_meshes=1),
+    ],
+    ids=str,
+)
+def test_another_question_has_another_key(other: object) -> None:
+    assert other != USUAL
+    assert getattr(other, "text", None) != USUAL.text
+
+
+def test_labels_and_the_order_of_pressures_decide_nothing() -> None:
+    assert key(small("name=another", "description=words")) == USUAL
+    assert key(small("material.source=somewhere")) == USUAL
+    assert key(small(), pressures=(0.01, 0.02)) == key(small(), pressures=(0.02, 0.01))
+
+
+def test_a_changed_module_of_ours_is_noticed(tmp_path: Path) -> None:
+    for name in ("bellows_design/a.py", "solver/kernels/b.py", "printers/c.py"):
+        (tmp_path / name).parent.mkdir(parents=True)
+        (tmp_path / name).write_text("x = 1\n")
+    before = sources_hash(tmp_path)
+    (tmp_path / "printers/c.py").write_text("x = 2\n")
+    assert sources_hash(tmp_path) == before
+    (tmp_path / "solver/kernels/b.py").write_text("x = 2\n")
+    changed = sources_hash(tmp_path)
+    assert changed != before
+    (tmp_path / "solver/kernels/b.py").rename(tmp_path / "solver/kernels/d.py")
+    assert sources_hash(tmp_path) not in (before, changed)
+
+
+def test_settings_of_libraries_count_but_not_where_their_files_are() -> None:
+    there = {"MKL_CBWR": "AVX2", "NUMBA_CACHE_DIR": "/somewhere", "HOME": "/root"}
+    assert settings(there) == {"MKL_CBWR": "AVX2"}
+
+
+def test_surroundings_name_sources_versions_solver_and_processor(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    here = surroundings()
+    assert {"bellows-design", "numpy", "numba", "gmsh", "cadquery"} <= here["versions"].keys()
+    assert here["linear_solvers"] and here["processor"] and len(here["sources"]) == 64
+    monkeypatch.setenv("MKL_NUM_THREADS", "7")
+    assert digest(surroundings()) != digest(here)
