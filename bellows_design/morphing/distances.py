@@ -13,31 +13,33 @@ def signed_distances(boxes: Boxes, chosen: Indices, points: Reals) -> Reals:
 
     Negative inside. Source: I. Quilez, distance functions of rounded boxes.
     """
-    middle, half = _middles_and_halves(boxes, chosen)
-    beyond = np.abs(points - middle) - half
-    outside = np.linalg.norm(np.maximum(beyond, 0.0), axis=1)
-    return outside + np.minimum(beyond.max(axis=1), 0.0) - boxes.radius[chosen]
+    return distances_and_normals(boxes, chosen, points)[0]
 
 
 def distances_and_normals(boxes: Boxes, chosen: Indices, points: Reals) -> tuple[Reals, Reals]:
-    """Signed distances (k,) as above, mm, and their gradients (k, 3) for points outside of cores.
+    """Signed distances (k,) as above, mm, and their gradients (k, 3).
 
     Inside of a core the gradient is that of its nearest plane.
     """
-    middle, half = _middles_and_halves(boxes, chosen)
-    offset = points - middle
-    beyond = np.abs(offset) - half
-    outer = np.maximum(beyond, 0.0)
-    outside = np.linalg.norm(outer, axis=1)
-    inside = outside == 0
-    nearest = beyond == beyond.max(axis=1, keepdims=True)
-    steepest = np.where(inside[:, None], nearest, outer)
-    gradient = steepest / np.linalg.norm(steepest, axis=1, keepdims=True)
-    distance = outside + np.minimum(beyond.max(axis=1), 0.0) - boxes.radius[chosen]
-    return distance, gradient * np.where(offset < 0, -1.0, 1.0)
+    lower, upper = boxes.core[chosen, 0], boxes.core[chosen, 1]
+    below, above = lower - points, points - upper
+    outer = np.maximum(above, 0.0) - np.maximum(below, 0.0)
+    distance = np.sqrt(outer[:, 0] ** 2 + outer[:, 1] ** 2 + outer[:, 2] ** 2)
+    inside = np.flatnonzero(distance == 0)
+    if len(inside):
+        depth, outer[inside] = _to_nearest_plane(below[inside], above[inside])
+        gradient = outer / np.where(distance == 0, 1.0, distance)[:, None]
+        distance[inside] = depth
+    else:
+        gradient = outer / distance[:, None]
+    return distance - boxes.radius[chosen], gradient
 
 
-def _middles_and_halves(boxes: Boxes, chosen: Indices) -> tuple[Reals, Reals]:
-    middle = boxes.core.mean(axis=1)
-    half = (boxes.core[:, 1] - boxes.core[:, 0]) / 2
-    return middle[chosen], half[chosen]
+def _to_nearest_plane(below: Reals, above: Reals) -> tuple[Reals, Reals]:
+    """Signed distances (k,) of points inside cores from the nearest planes, and normals (k, 3)."""
+    depths = np.hstack([below, above])
+    nearest = depths.argmax(axis=1)
+    rows = np.arange(len(depths))
+    normal = np.zeros_like(below)
+    normal[rows, nearest % 3] = np.where(nearest < 3, -1.0, 1.0)
+    return depths[rows, nearest], normal

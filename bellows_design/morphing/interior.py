@@ -8,9 +8,9 @@ import numpy as np
 
 from bellows_design.morphing.extension import Extension, extension, simplex_stiffness
 from bellows_design.morphing.primitives import Indices
+from bellows_design.morphing.validity import Elements
 from solver import Mesh
 from solver.arrays import Reals
-from solver.mesh.elements import TETRAHEDRON_EDGES
 
 
 @dataclass(frozen=True)
@@ -26,22 +26,21 @@ class Interior:
     ends: Indices
 
     @classmethod
-    def of(cls, mesh: Mesh, surface: Indices) -> Interior:
+    def of(cls, mesh: Mesh, elements: Elements, surface: Indices) -> Interior:
         on_surface = np.zeros(len(mesh.nodes), bool)
         on_surface[surface] = True
         vertex = np.zeros_like(on_surface)
         vertex[mesh.vertices] = True
         stiffness = simplex_stiffness(mesh.nodes, mesh.tets[:, :4])
-        numbers = mesh.tets[:, 4:].ravel()
-        middles, first = np.unique(numbers, return_index=True)
-        ends = mesh.tets[:, TETRAHEDRON_EDGES].reshape(-1, 2)[first]
-        inside = ~on_surface[middles]
-        return cls(extension(stiffness, on_surface & vertex, vertex), middles[inside], ends[inside])
+        inside = ~on_surface[elements.middles]
+        follow = extension(stiffness, on_surface & vertex, vertex)
+        return cls(follow, elements.middles[inside], elements.ends[inside])
 
     def extended(self, change: Reals) -> Reals:
         """The changes of all nodes (n, 3), from those on the surface."""
         filled = self.at_vertices(change)
-        filled[self.middles] = filled[self.ends].mean(axis=1)
+        one, two = self.ends.T
+        filled[self.middles] = (filled[one] + filled[two]) / 2
         return filled
 
     def transposed(self, gradient: Reals) -> Reals:

@@ -17,7 +17,7 @@ from bellows_design.morphing.interior import Interior
 from bellows_design.morphing.prediction import predicted
 from bellows_design.morphing.primitives import Boxes, boxes_of
 from bellows_design.morphing.skin import Skin
-from bellows_design.morphing.validity import unfolded
+from bellows_design.morphing.validity import Elements
 from solver import Mesh
 from solver.arrays import Reals
 
@@ -43,6 +43,7 @@ class Morpher:
         channel_end: Where the channel ends in the last chamber; see ``geometry.actuator``.
         boxes: What bounds the body.
         skin: The surface's nodes.
+        elements: The tetrahedra, and whether they fold.
         interior: How the other nodes follow them.
     """
 
@@ -52,6 +53,7 @@ class Morpher:
     channel_end: float
     boxes: Boxes
     skin: Skin
+    elements: Elements
     interior: Interior
 
     @classmethod
@@ -67,8 +69,10 @@ class Morpher:
                 skin = Skin.of(boxes, mesh)
             except ForeignMesh as error:
                 reason = error
-            else:
-                return cls(design, model, mesh, end, boxes, skin, Interior.of(mesh, skin.nodes))
+                continue
+            elements = Elements.of(mesh)
+            interior = Interior.of(mesh, elements, skin.nodes)
+            return cls(design, model, mesh, end, boxes, skin, elements, interior)
         raise reason
 
     def mesh_of(self, other: Design) -> Mesh:
@@ -83,7 +87,7 @@ class Morpher:
         """
         if other == self.design:
             return self.mesh
-        nodes, folded = unfolded(self.nodes_of(other), self.mesh.tets)
+        nodes, folded = self.elements.unfolded(self.nodes_of(other))
         if folded:
             raise MorphFailed(folded, self._reached(other))
         return Mesh(nodes, self.mesh.tets, self.mesh.surfaces)
@@ -172,4 +176,4 @@ class Morpher:
             nodes = self.nodes_of(between(self.design, other, share))
         except BellowsError:
             return False
-        return not unfolded(nodes, self.mesh.tets)[1]
+        return not self.elements.unfolded(nodes)[1]

@@ -86,14 +86,17 @@ class Skin:
         yield np.flatnonzero(level == 3), lambda _: prediction
         yield np.flatnonzero(level == 2), self.along_curves
         yield np.flatnonzero(level == 1), self.over_faces
-        yield np.flatnonzero(~vertex), lambda change: change[self.ends].mean(axis=1)
+        yield (
+            np.flatnonzero(~vertex),
+            lambda change: (change[self.ends[:, 0]] + change[self.ends[:, 1]]) / 2,
+        )
 
     def _relaxed(self, points: Reals) -> Reals:
         """The points with mid-nodes of elements that were unfolded back at their share."""
-        straight = points[self.ends].mean(axis=1)
-        return np.where(
-            self.share[:, None] == 1.0, points, straight + self.share[:, None] * (points - straight)
-        )
+        rows = np.flatnonzero(self.share < 1.0)
+        straight = points[self.ends[rows]].mean(axis=1)
+        points[rows] = straight + self.share[rows, None] * (points[rows] - straight)
+        return points
 
 
 def _ends(triangles: Indices, count: int) -> Indices:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
+from dataclasses import dataclass
 
+import numpy as np
+
+from solver import Mesh
 from solver.arrays import Integers, Reals
 from solver.mesh.elements import TETRAHEDRON_EDGES
 from solver.mesh.mid_nodes import SMALLEST_RATIO, jacobian_ratios, relaxed
@@ -13,50 +15,61 @@ STRAIGHT = 1e-12
 """mm. Mid-nodes nearer to the middles of their edges make no element curved."""
 
 
-def unfolded(nodes: Reals, tets: Integers) -> tuple[Reals, str]:
-    """The nodes (n, 3) with mid-nodes of nearly folded elements moved back, and what is folded yet.
+@dataclass(frozen=True)
+class Elements:
+    """Tetrahedra ``tets`` (e, 10); their mid-nodes ``middles`` (j,) between ``ends`` (j, 2)."""
 
-    As for a mesh that is new: mid-nodes leave their surface only where elements need it. The second
-    is empty if no element is folded.
-    """
-    worst, ratio = _worst(nodes, tets)
-    if 0 < ratio < SMALLEST_RATIO or (ratio <= 0 and _volumes(nodes, tets).min() > 0):
-        nodes = relaxed(nodes, tets)
-        worst, ratio = _worst(nodes, tets)
-    if ratio >= SMALLEST_RATIO:
-        return nodes, ""
-    x, y, z = nodes[tets[worst, :4]].mean(axis=0)
-    place = f"({x:.2f}, {y:.2f}, {z:.2f}) mm"
-    return nodes, f"tetrahedron {worst} near {place} folds (Jacobian ratio {ratio:.2g})"
+    tets: Integers
+    middles: Integers
+    ends: Integers
 
+    @classmethod
+    def of(cls, mesh: Mesh) -> Elements:
+        middles, first = np.unique(mesh.tets[:, 4:], return_index=True)
+        ends = mesh.tets[:, TETRAHEDRON_EDGES].reshape(-1, 2)[first]
+        return cls(mesh.tets, middles, ends)
 
-def _worst(nodes: Reals, tets: Integers) -> tuple[int, float]:
-    """The element of the least ratio of smallest to mean Jacobian, and that ratio.
+    def unfolded(self, nodes: Reals) -> tuple[Reals, str]:
+        """The nodes (n, 3) with mid-nodes of nearly folded elements moved back; what folds yet.
 
-    Straight elements have one of 1 or -1, by the sign of their volume.
-    """
-    volumes = _volumes(nodes, tets)
-    if volumes.min() <= 0:
-        return int(volumes.argmin()), -1.0
-    curved = np.flatnonzero(_bent(nodes, tets))
-    if len(curved) == 0:
-        return 0, 1.0
-    ratios = jacobian_ratios(nodes, tets[curved])
-    worst = int(ratios.argmin())
-    return int(curved[worst]), float(ratios[worst])
+        As in a mesh that is new, mid-nodes leave their surface only where elements need it. The
+        second is empty if no element is folded.
+        """
+        volumes = self._volumes(nodes)
+        if volumes.min() <= 0:
+            return nodes, self._sentence(nodes, int(volumes.argmin()), -1.0)
+        curved = self._curved(nodes)
+        ratios = jacobian_ratios(nodes, self.tets[curved])
+        if ratios.min(initial=1.0) >= SMALLEST_RATIO:
+            return nodes, ""
+        nodes = relaxed(nodes, self.tets[curved])
+        ratios = jacobian_ratios(nodes, self.tets[curved])
+        worst = int(ratios.argmin())
+        if ratios[worst] >= SMALLEST_RATIO:
+            return nodes, ""
+        return nodes, self._sentence(nodes, int(curved[worst]), float(ratios[worst]))
 
+    def _volumes(self, nodes: Reals) -> Reals:
+        """Six times the volumes of the tetrahedra with straight edges, (e,), mm³."""
+        a, b, c, d = (nodes[corner] for corner in self.tets[:, :4].T)
+        u, v, w = (b - a).T, (c - a).T, (d - a).T
+        volumes: Reals = u[0] * (v[1] * w[2] - v[2] * w[1])
+        volumes += u[1] * (v[2] * w[0] - v[0] * w[2])
+        volumes += u[2] * (v[0] * w[1] - v[1] * w[0])
+        return volumes
 
-def _volumes(nodes: Reals, tets: Integers) -> Reals:
-    """Six times the volumes of the tetrahedra with straight edges, (e,), mm³."""
-    a, b, c, d = (nodes[corner] for corner in tets[:, :4].T)
-    volumes: Reals = np.einsum("ei,ei->e", np.cross(b - a, c - a), d - a)
-    return volumes
+    def _curved(self, nodes: Reals) -> Integers:
+        """The tetrahedra that have a mid-node beside the middle of its edge, (c,)."""
+        one, two = self.ends.T
+        offset = np.abs(nodes[self.middles] - (nodes[one] + nodes[two]) / 2)
+        bent = np.zeros(len(nodes), bool)
+        bent[self.middles] = (offset > STRAIGHT).any(axis=1)
+        curved: Integers = np.flatnonzero(bent[self.tets[:, 4:]].any(axis=1)).astype(np.int32)
+        return curved
 
-
-def _bent(nodes: Reals, tets: Integers) -> NDArray[np.bool_]:
-    """Whether each element has a mid-node beside the middle of its edge."""
-    bent = np.zeros(len(tets), bool)
-    for middle, (a, b) in enumerate(TETRAHEDRON_EDGES, start=4):
-        offset = nodes[tets[:, middle]] - (nodes[tets[:, a]] + nodes[tets[:, b]]) / 2
-        bent |= np.abs(offset).max(axis=1) > STRAIGHT
-    return bent
+    def _sentence(self, nodes: Reals, element: int, ratio: float) -> str:
+        x, y, z = nodes[self.tets[element, :4]].mean(axis=0)
+        place = f"({x:.2f}, {y:.2f}, {z:.2f}) mm"
+        if ratio == -1.0:
+            return f"tetrahedron {element} near {place} is turned inside out"
+        return f"tetrahedron {element} near {place} folds (Jacobian ratio {ratio:.2g})"
