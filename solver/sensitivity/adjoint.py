@@ -131,13 +131,13 @@ class TangentSystem:
 
     def _refined(self, right_hand_side: Reals, transposed: bool) -> tuple[Reals, float]:
         """The best solution by refinement with the last factorization, and its residual."""
-        scale = _length(right_hand_side) or 1.0
+        scale = inner(right_hand_side, right_hand_side) ** 0.5 or 1.0
         best, least = np.zeros_like(right_hand_side), np.inf
         vector, rest = best, right_hand_side
         for _ in range(MOST_REFINEMENTS):
             vector = vector + self.system.solve(rest, transposed)
             rest = right_hand_side - self.tangent.times(vector, transposed)
-            residual = _length(rest) / scale
+            residual = inner(rest, rest) ** 0.5 / scale
             if not residual < least:
                 break
             slow, best, least = residual > CONTRACTION * least, vector, residual
@@ -146,9 +146,9 @@ class TangentSystem:
         return best, least
 
 
-def _length(vector: Reals) -> float:
-    """Euclidean norm; not by BLAS, whose threads wait longer than such a vector takes."""
-    return float(np.sqrt((vector * vector).sum()))
+def inner(one: Reals, other: Reals) -> float:
+    """Scalar product; not by BLAS, whose threads wait longer than such vectors take."""
+    return float((one * other).sum())
 
 
 SINGULAR = (

@@ -26,7 +26,7 @@ from solver.problem.problem import Problem
 from solver.problem.supports import prescribed_motion
 from solver.results.sharp_edges import trusted_nodes
 from solver.results.solution import Solution, check_solution
-from solver.sensitivity.adjoint import TangentSystem, Workspace
+from solver.sensitivity.adjoint import TangentSystem, Workspace, inner
 from solver.sensitivity.reach import reach_of
 from solver.sensitivity.responses import Response, available, response
 from solver.sensitivity.smooth_peak import SHARPNESS, PeakRegion, SmoothPeak
@@ -110,7 +110,7 @@ class Gradients:
         _check_velocity(problem, velocity)
         rate = _given_rate(problem, self.solution.load, velocity)
         return {
-            name: float((each.nodes * velocity).sum() + (each.given * rate).sum())
+            name: inner(each.nodes, velocity) + inner(each.given, rate)
             for name, each in self.responses.items()
         }
 
@@ -209,10 +209,10 @@ def _gradient(
         value=response.value,
         nodes=nodes - turned(assembly, state, adjoint.direction, forces),
         given=np.where(_led(assembly.problem), total.by_displacement, 0.0),
-        pressure=-float(adjoint.vector @ system.equilibrium.force),
+        pressure=-inner(adjoint.vector, system.equilibrium.force),
         adjoint=adjoint.direction,
         residual=adjoint.residual,
-        remaining=-float(adjoint.vector @ system.equilibrium.residual),
+        remaining=-inner(adjoint.vector, system.equilibrium.residual),
     )
 
 

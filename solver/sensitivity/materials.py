@@ -8,12 +8,13 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
+from solver.arrays import Reals
 from solver.assembly.assembly import solid
 from solver.errors import SolverError
 from solver.input_types import shown
 from solver.kernels.element import Solid
 from solver.material.law import Hyperelastic
-from solver.problem.problem import Problem
+from solver.sensitivity.adjoint import inner
 from solver.sensitivity.contact_work import contact_work
 from solver.sensitivity.gradients import Gradients
 from solver.sensitivity.responses import PEAK
@@ -25,6 +26,10 @@ MaterialChange: TypeAlias = tuple[Hyperelastic, Hyperelastic, float]
 STEP = 1e-4
 """Of a constant, relative; of those that may be zero at least this times the shear modulus, or of
 an exponent times one."""
+
+NOT_LINEAR = ("alpha", "bulk_modulus")
+"""Constants in which the stress is not linear: they need a material on both sides. The others share
+the problem's material."""
 
 
 def constant_changes(material: Hyperelastic) -> dict[str, MaterialChange]:
@@ -56,7 +61,7 @@ def material_derivatives(
     Args:
         found: gradients at an equilibrium.
         changes: parameter -> (material ahead, material behind, step between them), the problem's
-            material in the middle.
+            material in the middle, or one of the two if the stress is linear in the parameter.
 
     Returns:
         response -> parameter -> derivative.
@@ -66,35 +71,41 @@ def material_derivatives(
     """
     if not changes:
         return {response: {} for response in found.responses}
-    residual = SolidResidual.of(found.at)
-    columns = {
-        name: _by_material(found, residual, *_checked(name, each)) for name, each in changes.items()
-    }
+    checked = {name: _checked(name, each) for name, each in changes.items()}
+    residuals = _residuals(found, checked)
+    columns = {name: _by_material(found, residuals, *each) for name, each in checked.items()}
     return {
         response: {name: column[response] for name, column in columns.items()}
         for response in found.responses
     }
 
 
+def _residuals(
+    found: Gradients, changes: Mapping[str, MaterialChange]
+) -> dict[int, tuple[Reals, Reals]]:
+    """Forces and constraint violations with each material of the changes, once, by its id."""
+    residual, body = SolidResidual.of(found.at), solid(found.solution.problem)
+    materials = {id(each): each for *pair, _ in changes.values() for each in pair}
+    return {number: residual(_with_law(body, each)) for number, each in materials.items()}
+
+
 def _by_material(
     found: Gradients,
-    residual: SolidResidual,
+    residuals: Mapping[int, tuple[Reals, Reals]],
     ahead: Hyperelastic,
     behind: Hyperelastic,
     step: float,
 ) -> dict[str, float]:
     """Response -> derivative: the work of a difference of forces, and the stress's own change."""
     at, problem = found.at, found.solution.problem
-    (there, stretched), (back, compressed) = (
-        residual(of_material(problem, each)) for each in (ahead, behind)
-    )
+    (there, stretched), (back, compressed) = residuals[id(ahead)], residuals[id(behind)]
     forces, violations = there - back, stretched - compressed
     stiffer = (ahead.shear_modulus - behind.shear_modulus) / problem.material.shear_modulus
     derivatives = {}
     for name, each in found.responses.items():
         adjoint = each.adjoint
-        work = float((forces * adjoint.displacement).sum())
-        work += float(violations @ adjoint.hydrostatic_pressure)
+        work = inner(forces, adjoint.displacement)
+        work += inner(violations, adjoint.hydrostatic_pressure)
         for pair in at.touching:  # whose stiffness is in proportion to the material's
             work += stiffer * contact_work(pair, at.state, at.load, adjoint)
         own = _own_change(found, ahead, behind) if name == PEAK else 0.0
@@ -104,16 +115,9 @@ def _by_material(
 
 def _own_change(found: Gradients, ahead: Hyperelastic, behind: Hyperelastic) -> float:
     """Difference of the smooth peak at the same displacements, MPa."""
-    region, displacement = found.region, found.solution.displacement
-    there, back = (
-        region.value(_with_law(region.body, each), displacement) for each in (ahead, behind)
-    )
-    return there - back
-
-
-def of_material(problem: Problem, material: Hyperelastic) -> Solid:
-    """The problem's body of another material."""
-    return _with_law(solid(problem), material)
+    region = found.region
+    there, back = _with_law(region.body, ahead), _with_law(region.body, behind)
+    return region.change(there, back, found.solution.displacement)
 
 
 def _with_law(body: Solid, material: Hyperelastic) -> Solid:
@@ -127,7 +131,7 @@ def _with_law(body: Solid, material: Hyperelastic) -> Solid:
 
 
 def _change(material: Hyperelastic, name: str, place: int | None) -> MaterialChange:
-    """Central change of a constant, or of one of several."""
+    """Change of a constant, or of one of several; forward where the stress is linear in it."""
     whole: Any = getattr(material, name)
     value = whole if place is None else whole[place]
     unit = {"mu": 0.0, "bulk_modulus": 0.0, "alpha": 1.0}.get(name, material.shear_modulus)
@@ -139,7 +143,9 @@ def _change(material: Hyperelastic, name: str, place: int | None) -> MaterialCha
             new = (*whole[:place], new, *whole[place + 1 :])
         return replace(material, **{name: new})  # type: ignore[type-var]
 
-    return changed(step), changed(-step), 2 * step
+    if name in NOT_LINEAR:
+        return changed(step), changed(-step), 2 * step
+    return changed(step), material, step
 
 
 def _checked(name: str, given: MaterialChange) -> MaterialChange:

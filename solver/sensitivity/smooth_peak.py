@@ -86,6 +86,13 @@ class PeakRegion:
         """The smooth peak, MPa, with another material or other positions in ``body``."""
         return _norm(von_mises(self._stress(body, displacement)[0]), self.sharpness)[0]
 
+    def change(self, ahead: Solid, behind: Solid, displacement: Reals) -> float:
+        """First-order change of the smooth peak between two materials, MPa."""
+        here, there, back = (
+            self._stress(body, displacement)[0] for body in (self.body, ahead, behind)
+        )
+        return float((self._weights(here) * (there - back)).sum())
+
     def peak(self, displacement: Reals) -> SmoothPeak:
         """Value and peak."""
         values = von_mises(self._stress(self.body, displacement)[0])

@@ -67,9 +67,9 @@ def with_step(material: Hyperelastic, name: str, step: float) -> Hyperelastic:
 def check(solution: Solution, name: str) -> None:
     material = solution.problem.material
     found = gradients(solution)
-    ahead, _, step = change = constant_changes(material)[name]
+    ahead, behind, step = change = constant_changes(material)[name]
     table = material_derivatives(found, {name: change})
-    assert with_step(material, name, step / 2) == ahead
+    assert ahead == with_step(material, name, step if behind is material else step / 2)
     expected = by_material(solution, found, lambda s: with_step(material, name, s), 10 * step)
     for response, row in table.items():
         scale = max(abs(expected[response]), 1e-3 * abs(found.responses[response].value))
