@@ -23,6 +23,11 @@ from numba import config
 from solver.compilation import njit
 
 settings: Any = config
+
+# Threads of numba and of MKL, which have an OpenMP library each, shall sleep while they wait: busy
+# ones take the processor from each other, and from Gmsh.
+os.environ.setdefault("OMP_WAIT_POLICY", "PASSIVE")
+
 Function = TypeVar("Function", bound=Callable[..., Any])
 
 PACKAGE = Path(__file__).parents[1]
