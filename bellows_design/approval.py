@@ -4,10 +4,10 @@ Approved is a design for which every printability rule passes, the solver reache
 pressure, the highest von Mises stress keeps its limit *including its estimated error*, and the
 material is not strained beyond its elongation at break. Where the error reaches across the limit
 nothing is decided: the answer is no, and the remedy is a finer mesh, not another design. A result
-that walls run through each other in, elements that fold at the highest stress, or a missing rule or
-error estimate, are never taken for a pass. Strains outside of the range the material was tested in
-are a warning: the range is that of the tests, not of the material. What cannot be judged is listed,
-with the reason.
+that walls run through each other in, elements that fold at the highest stress, a missing rule or
+error estimate, or a result that depends on another design's, are never taken for a pass. Strains
+outside of the range the material was tested in are a warning: the range is that of the tests, not
+of the material. What cannot be judged is listed, with the reason.
 """
 
 from __future__ import annotations
@@ -97,7 +97,11 @@ def decide(design: Design, report: PrintabilityReport, state: LoadedState) -> Ve
     Returns:
         All reasons against the design; approval where there is none.
     """
-    reasons = (*_print_reasons(report), *_load_reasons(design, state))
+    reasons = (
+        *_print_reasons(report),
+        *_history_reasons(state),
+        *_load_reasons(design, state),
+    )
     warnings = dict.fromkeys((*design.material.warnings, *state.warnings))
     return Verdict(reasons, tuple(warnings), _not_judged(design, state))
 
@@ -148,6 +152,17 @@ def _print_reasons(report: PrintabilityReport) -> tuple[Reason, ...]:
         if name not in checked
     )
     return failed + missing
+
+
+def _history_reasons(state: LoadedState) -> tuple[Reason, ...]:
+    """A result that another design's leads to is no ground for a verdict."""
+    if state.ordinary:
+        return ()
+    message = (
+        "The result was reached from a neighbouring design; a verdict needs an evaluation of the "
+        "design by itself."
+    )
+    return (Reason("accuracy", "history", "neighbour", "ordinary", "", message),)
 
 
 def _load_reasons(design: Design, state: LoadedState) -> tuple[Reason, ...]:

@@ -2,22 +2,108 @@
 
 ``evaluate`` does all. Who wants to refine mesh by mesh starts a ``Computation`` with ``started``,
 goes on with ``refined``, and gets the record with ``evaluation_of``; the computation behind an
-evaluation is its attribute ``computation``.
+evaluation is its attribute ``computation``. Studies, which ask for many designs that differ by
+little, take a ``Pool``.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
+from typing import overload
+
+from bellows_design.analysis import evaluate as analysis
 from bellows_design.analysis.computation import Computation
-from bellows_design.analysis.evaluate import evaluate, evaluation_of, write_vtu
-from bellows_design.analysis.evaluation import Evaluation
+from bellows_design.analysis.evaluate import evaluation_of, write_vtu
+from bellows_design.analysis.evaluation import Evaluation, LoadedState
 from bellows_design.analysis.mesh_sequence import refined, started
+from bellows_design.budget import DEFAULT, Budget
+from bellows_design.design.design import Design
+from bellows_design.errors import DesignError
+from bellows_design.neighbours.neighbourhood import Neighbourhood
+from bellows_design.neighbours.pool import Pool
+from bellows_design.neighbours.record import NeighbourEvaluation
+from bellows_design.progress import SILENCE, Progress
 
 __all__ = [
     "Computation",
     "Evaluation",
+    "NeighbourEvaluation",
+    "Neighbourhood",
+    "Pool",
     "evaluate",
     "evaluation_of",
     "refined",
     "started",
     "write_vtu",
 ]
+
+Near = Evaluation | NeighbourEvaluation | Neighbourhood | Pool
+
+
+def _nothing(_: LoadedState) -> str:
+    return ""
+
+
+@overload
+def evaluate(
+    design: Design,
+    model: str = ...,
+    accuracy_percent: float | None = ...,
+    pressures: Sequence[float] = ...,
+    progress: Progress = ...,
+    budget: Budget = ...,
+    open_question: Callable[[LoadedState], str] = ...,
+    near: None = ...,
+) -> Evaluation: ...
+
+
+@overload
+def evaluate(
+    design: Design, *, progress: Progress = ..., budget: Budget = ..., near: Near
+) -> NeighbourEvaluation: ...
+
+
+def evaluate(
+    design: Design,
+    model: str = "auto",
+    accuracy_percent: float | None = None,
+    pressures: Sequence[float] = (),
+    progress: Progress = SILENCE,
+    budget: Budget = DEFAULT,
+    open_question: Callable[[LoadedState], str] = _nothing,
+    near: Near | None = None,
+) -> Evaluation | NeighbourEvaluation:
+    """Evaluate ``design``: by itself, or starting from a neighbour (``near``).
+
+    Without ``near`` this is ``analysis.evaluate.evaluate``, and so are all other arguments.
+
+    Args:
+        near: An evaluation of a design that differs by little. Its mesh is moved and its
+            equilibrium is the start, which costs about a tenth. Its model, accuracy and ends are
+            taken over. Where that fails the design is evaluated by itself; the result says so.
+            From an ordinary evaluation the first neighbour takes longer: pass its result on, or a
+            ``Neighbourhood`` or ``Pool``.
+
+    Raises:
+        BellowsError: As without ``near``; also for ``near`` with a model, accuracy or pressures.
+        MeshingError: No usable mesh, or none in time.
+    """
+    if near is None:
+        return analysis.evaluate(
+            design, model, accuracy_percent, pressures, progress, budget, open_question
+        )
+    if model != "auto" or accuracy_percent is not None or len(pressures):
+        raise DesignError(
+            "near: a neighbour has the model, the accuracy and the single pressure of the "
+            "evaluation that it starts from; leave out model, accuracy_percent and pressures."
+        )
+    return _session(near).evaluate(design, progress, budget)
+
+
+def _session(near: Near) -> Neighbourhood | Pool:
+    """The session that ``near`` belongs to, or a new one."""
+    if isinstance(near, Neighbourhood | Pool):
+        return near
+    if isinstance(near, Evaluation):
+        return Neighbourhood(near)
+    return near.neighbourhood or Neighbourhood(near.anchor)

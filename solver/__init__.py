@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from solver.paths.arc_length import Trace, trace
     from solver.paths.limits import Limit
     from solver.paths.load_stepping import solve
+    from solver.paths.neighbouring import Neighbouring, neighbouring
     from solver.paths.volume.control import inflate
     from solver.problem.contacts import Contact, RigidPlane
     from solver.problem.loads import BodyForce, Couple, PointForce, Traction
@@ -37,6 +38,10 @@ if TYPE_CHECKING:
     from solver.results.stress import Peak, nodal_cauchy, nodal_von_mises, peak_von_mises
     from solver.results.vtu import write_vtu
     from solver.results.work import Work, work
+    from solver.sensitivity.gradients import Gradients, ResponseGradient, gradients
+    from solver.sensitivity.materials import constant_changes, material_derivatives
+    from solver.sensitivity.sensitivities import Sensitivities, sensitivities
+    from solver.sensitivity.smooth_peak import SmoothPeak
 
 __all__ = [
     "BodyForce",
@@ -47,8 +52,10 @@ __all__ = [
     "Event",
     "Folds",
     "FoundationSpring",
+    "Gradients",
     "Limit",
     "Mesh",
+    "Neighbouring",
     "NodeSpring",
     "Ogden",
     "PathPoint",
@@ -57,8 +64,11 @@ __all__ = [
     "Potential",
     "Problem",
     "Reaction",
+    "ResponseGradient",
     "RigidPlane",
+    "Sensitivities",
     "SlenderAxis",
+    "SmoothPeak",
     "Solution",
     "SolverOptions",
     "Supports",
@@ -66,15 +76,20 @@ __all__ = [
     "Traction",
     "Work",
     "cavity_volume",
+    "constant_changes",
     "contact_forces",
     "folded_elements",
+    "gradients",
     "inflate",
+    "material_derivatives",
+    "neighbouring",
     "nodal_cauchy",
     "nodal_von_mises",
     "peak_von_mises",
     "potential",
     "reaction",
     "rotation",
+    "sensitivities",
     "solve",
     "strain_energy",
     "trace",
@@ -95,6 +110,7 @@ __getattr__ = imported_when_asked_for(
         "nonlinear.checkpoint": ("Checkpoint",),
         "nonlinear.finite_motion": ("rotation",),
         "paths.load_stepping": ("solve",),
+        "paths.neighbouring": ("Neighbouring", "neighbouring"),
         "nonlinear.events": ("Event",),
         "nonlinear.options": ("SolverOptions",),
         "paths.volume.control": ("inflate",),
@@ -110,6 +126,10 @@ __getattr__ = imported_when_asked_for(
         "results.solution": ("PathPoint", "Solution", "cavity_volume", "folded_elements"),
         "results.vtu": ("write_vtu",),
         "results.work": ("Work", "work"),
+        "sensitivity.gradients": ("Gradients", "ResponseGradient", "gradients"),
+        "sensitivity.materials": ("constant_changes", "material_derivatives"),
+        "sensitivity.sensitivities": ("Sensitivities", "sensitivities"),
+        "sensitivity.smooth_peak": ("SmoothPeak",),
         "results.stress": ("Peak", "nodal_cauchy", "nodal_von_mises", "peak_von_mises"),
     },
 )

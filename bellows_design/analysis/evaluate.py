@@ -71,7 +71,8 @@ def evaluate(
         MeshingError: No usable mesh, or none in time.
     """
     _check(design, accuracy_percent, pressures)
-    computation = started(design, *choose(design, model), pressures, progress, budget)
+    body, reason = choose(design, model)
+    computation = started(design, body, reason, pressures, progress, budget, body.levels - 1)
     while not _enough(computation, accuracy_percent):
         plan = affordable_plan(computation)
         if plan is None:
@@ -137,7 +138,7 @@ def evaluation_of(computation: Computation) -> Evaluation:
         model=computation.model,
         reason=computation.reason,
         meshes=_mesh_readings(computation),
-        solver=_effort(computation.all_solutions),
+        solver=effort(computation.all_solutions),
         seconds=computation.seconds,
         path=path_readings(computation),
         curve=curve_readings(computation),
@@ -245,7 +246,8 @@ def _mesh_readings(computation: Computation) -> tuple[MeshReading, ...]:
     return tuple(MeshReading(size, whole) for size, whole in pairs)
 
 
-def _effort(solutions: Sequence[Solution]) -> SolverEffort:
+def effort(solutions: Sequence[Solution]) -> SolverEffort:
+    """What solves took together."""
     return SolverEffort(
         load_steps=sum(solution.load_steps for solution in solutions),
         newton_iterations=sum(solution.newton_iterations for solution in solutions),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from bellows_design.analysis.error_estimate import ErrorEstimate
 from bellows_design.analysis.whole_actuator import NO_FOLDS, FoldedElements, Reading
@@ -50,6 +50,8 @@ class LoadedState:
     This is all that a verdict is decided by. Without convergence it is the last good state.
 
     Attributes:
+        ordinary: True of what depends on the design alone. A state that was reached from another
+            design's is decided by never.
         converged: True if every solution reached the design pressure.
         message: How far the load came and why it stopped.
         stable: Whether the state is stable under its pressure; None if that is unknown.
@@ -70,6 +72,8 @@ class LoadedState:
         folded: Elements that the deformation folds.
     """
 
+    ordinary: ClassVar[bool] = True
+
     converged: bool
     message: str
     stable: bool | None
@@ -89,6 +93,26 @@ class LoadedState:
     def warnings(self) -> tuple[str, ...]:
         """Sentences on what makes the numbers less reliable than they look."""
         return (*self.strain.warnings, *self.contact.warnings, *self.folded.warnings)
+
+    def state_dict(self) -> dict[str, Any]:
+        """Plain values of this state for JSON."""
+        return {
+            "pressure_mpa": self.pressure_mpa,
+            "converged": self.converged,
+            "message": self.message,
+            "stable": self.stable,
+            "limit_pressure_mpa": self.limit_pressure_mpa,
+            "touch_pressure_mpa": self.touch_pressure_mpa,
+            "bending_angle_deg": self.bending_angle_deg,
+            "max_von_mises_mpa": self.max_von_mises_mpa,
+            "max_von_mises_position_mm": list(self.max_von_mises_position_mm),
+            "cavity_volume_mm3": self.cavity_volume_mm3,
+            "strain": self.strain.to_dict(),
+            "warnings": list(self.warnings),
+            "contact": asdict(self.contact),
+            "folded_elements": asdict(self.folded),
+            "error_estimate": asdict(self.error_estimate),
+        }
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -139,21 +163,7 @@ class Evaluation(LoadedState):
             "digest": self.design.digest,
             "model": self.model.name,
             "model_reason": self.reason,
-            "pressure_mpa": self.pressure_mpa,
-            "converged": self.converged,
-            "message": self.message,
-            "stable": self.stable,
-            "limit_pressure_mpa": self.limit_pressure_mpa,
-            "touch_pressure_mpa": self.touch_pressure_mpa,
-            "bending_angle_deg": self.bending_angle_deg,
-            "max_von_mises_mpa": self.max_von_mises_mpa,
-            "max_von_mises_position_mm": list(self.max_von_mises_position_mm),
-            "cavity_volume_mm3": self.cavity_volume_mm3,
-            "strain": self.strain.to_dict(),
-            "warnings": list(self.warnings),
-            "contact": asdict(self.contact),
-            "folded_elements": asdict(self.folded),
-            "error_estimate": asdict(self.error_estimate),
+            **self.state_dict(),
             "mesh": asdict(self.mesh),
             "meshes": [asdict(mesh.size) | asdict(mesh.reading) for mesh in self.meshes],
             "solver": asdict(self.solver),

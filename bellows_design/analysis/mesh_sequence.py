@@ -8,11 +8,12 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from bellows_design.analysis.computation import Body, Computation, Seconds, SolvedMesh
 from bellows_design.analysis.models import FREE_CELL, HALF, UNIT_CELL, AnalysisModel, shortened
+from bellows_design.beside import Beside, beside
 from bellows_design.budget import DEFAULT, Budget
 from bellows_design.design.design import Design
 from bellows_design.progress import SILENCE, Progress
@@ -33,8 +34,12 @@ def started(
     pressures: Sequence[float] = (),
     progress: Progress = SILENCE,
     budget: Budget = DEFAULT,
+    meshes: int = 1,
 ) -> Computation:
     """``design`` on the coarsest mesh of ``model``, with the ends if that is the unit cell.
+
+    The ends are solved beside the cell where the machine has a processor for them. What is found
+    does not depend on that, nor on which is ready first.
 
     Args:
         design: What is computed, at its design pressure.
@@ -43,29 +48,37 @@ def started(
         pressures: Further pressures to stop at, MPa.
         progress: Listens to stages and load.
         budget: Memory (GiB) and seconds that a mesh may take.
+        meshes: So many meshes, from coarse to fine, where the budget and the solutions allow it.
 
     Returns:
-        The first solution; ``refined`` adds those on finer meshes.
+        The first solutions; ``refined`` adds those on finer meshes.
 
     Raises:
         GeometryError: The CAD kernel cannot build the body.
         DesignError: The mesh would exceed the budget.
         MeshingError: No usable mesh, or none in time.
     """
+    from solver.linear.threads import may_run_side_by_side, one_thread
     from solver.meshing import process as meshing_process
 
     meshing_process.start()  # loads Gmsh while the solid is built
-    progress.stage(f"geometry of the {model.name}")
-    start = time.perf_counter()
-    body = Body(design, model)
-    _ = body.solid  # now, so that its time is counted
-    spent = Seconds(geometry=time.perf_counter() - start)
     asked = tuple(sorted(pressures))
-    blank = Computation(design, model, reason, body, asked, budget, seconds=spent)
-    computation = refined(blank, progress)
-    if model is UNIT_CELL and computation.converged:
-        return _with_ends(computation, progress)
-    return computation
+
+    def short_actuator(shown: Progress) -> Ends:
+        return _short_actuator(design, asked, budget, shown)
+
+    at_once = model is UNIT_CELL and may_run_side_by_side()
+    with beside(one_thread()(short_actuator) if at_once else short_actuator, at_once) as ends:
+        progress.stage(f"geometry of the {model.name}")
+        start = time.perf_counter()
+        body = Body(design, model)
+        _ = body.solid  # now, so that its time is counted
+        spent = Seconds(geometry=time.perf_counter() - start)
+        blank = Computation(design, model, reason, body, asked, budget, seconds=spent)
+        first = _refined_beside(ends, blank, progress)
+        if model is UNIT_CELL and first.converged:
+            return _with_ends(first, meshes, ends, progress)
+    return _refined_to(meshes, first, progress)
 
 
 def refined(
@@ -154,22 +167,74 @@ def _solved_on(mesh: Mesh, computation: Computation, progress: Progress) -> Solu
     return _solved(design, model.problem(design, mesh), progress, options, initial, stops)
 
 
-def _with_ends(computation: Computation, progress: Progress) -> Computation:
+@dataclass(frozen=True)
+class Ends:
+    """The solution of a short actuator, and the time each of its stages took."""
+
+    solution: Solution
+    seconds: Seconds
+
+
+def _with_ends(
+    first: Computation, meshes: int, ends: Beside[Ends], progress: Progress
+) -> Computation:
     """With the solution of a short actuator, on the mesh size of the coarsest cell.
 
-    Contact is not modelled in it. Where inner walls touch, in the cell or in the short actuator,
-    the cell without its neighbours stands for the ends, without the stubs of root and tip.
+    While that is not ready, the cell goes on to finer meshes, which do not count where the ends do
+    not reach the load. Contact is not modelled in a short actuator. Where inner walls touch, in the
+    cell or in the short actuator, the cell without its neighbours stands for the ends, without the
+    stubs of root and tip.
     """
     from bellows_design.analysis.wall_contact import image_gap
     from bellows_design.geometry.face_names import CAVITY
 
-    inner = image_gap(computation.finest, CAVITY)
+    inner = image_gap(first.finest, CAVITY)
     if inner is not None and inner <= 0:
-        return _with_free_ends(computation, progress)
-    short = _with_short_actuator(computation, progress)
-    if _stopped_inside(short):
-        return _with_free_ends(replace(short, ends=None, ends_peak=None), progress)
-    return short
+        ends.abandon()
+        return _refined_to(meshes, _with_free_ends(first, progress), progress)
+    finer = first
+    while ends.running and len(finer.solved) < meshes and (plan := affordable_plan(finer)):
+        finer = _refined_beside(ends, finer, progress, plan)
+    progress.stage("ends: an actuator of one bubble")
+    found, waited = ends.result(progress)
+    spent = Seconds(solve=waited) if ends.begun else found.seconds
+    with_ends = _having(first, found.solution, spent)
+    if _stopped_inside(with_ends):
+        with_ends = _with_free_ends(replace(with_ends, ends=None, ends_peak=None), progress)
+    if with_ends.converged:
+        more = finer.seconds - first.seconds
+        with_ends = replace(
+            with_ends,
+            solved=finer.solved,
+            seconds=with_ends.seconds + more,
+            out_of_time=with_ends.out_of_time or finer.out_of_time,
+        )
+    return _refined_to(meshes, with_ends, progress)
+
+
+def _refined_to(meshes: int, computation: Computation, progress: Progress) -> Computation:
+    """The computation on so many meshes, as far as they can be afforded."""
+    while len(computation.solved) < meshes and (plan := affordable_plan(computation)):
+        before = len(computation.solved)
+        computation = refined(computation, progress, plan)
+        if len(computation.solved) == before:  # the time ended
+            break
+    return computation
+
+
+def _refined_beside(
+    ends: Beside[Ends],
+    computation: Computation,
+    progress: Progress,
+    plan: PlannedMesh | None = None,
+) -> Computation:
+    """``refined``, on one processor while the ends take the other."""
+    if not ends.running:
+        return refined(computation, progress, plan)
+    from solver.linear.threads import one_thread
+
+    with one_thread():
+        return refined(computation, progress, plan)
 
 
 def _stopped_inside(computation: Computation) -> bool:
@@ -185,19 +250,24 @@ def _stopped_inside(computation: Computation) -> bool:
     return inner is not None and (outer is None or inner <= outer)
 
 
-def _with_short_actuator(computation: Computation, progress: Progress) -> Computation:
+def _short_actuator(
+    design: Design, pressures: tuple[float, ...], budget: Budget, progress: Progress
+) -> Ends:
+    """Solve for an actuator of one bubble."""
     from bellows_design.analysis.mesh_plan import first_plan
 
-    progress.stage("ends: an actuator of one bubble")
     began = time.perf_counter()
-    short = shortened(computation.design)
-    solid = HALF.solid(short)
+    short = shortened(design)
+    body = Body(short, HALF)
+    solid = body.solid
     built = time.perf_counter()
-    mesh = first_plan(solid, short).made(computation.budget)
+    progress.stage("ends: mesh")
+    mesh = first_plan(solid, short).made(budget)
     meshed = time.perf_counter()
-    ends = _solved_roughly(short, HALF.problem(short, mesh), computation, progress)
-    spent = Seconds(built - began, meshed - built, time.perf_counter() - meshed)
-    return _having(computation, ends, spent)
+    progress.stage("ends: an actuator of one bubble")
+    blank = Computation(short, HALF, "", body, pressures, budget)
+    solution = _solved_roughly(short, HALF.problem(short, mesh), blank, progress)
+    return Ends(solution, Seconds(built - began, meshed - built, time.perf_counter() - meshed))
 
 
 def _with_free_ends(computation: Computation, progress: Progress) -> Computation:

@@ -76,7 +76,8 @@ def touch_guard(bellows: BellowsParameters, problem: Problem) -> Guard:
 
     def refusal(state: State) -> str:
         if cell:
-            touching = _unmodelled_in_cell(bellows, problem.mesh, state.displacement)
+            outside, inside = _gaps_in_cell(problem.mesh, state.displacement)
+            touching = _unmodelled_in_cell(bellows, outside, inside)
         else:
             found = contact_of(bellows, problem.mesh, state.displacement)
             touching = tuple(name for name in found.where if name != ITSELF)
@@ -105,11 +106,10 @@ def contact_of(bellows: BellowsParameters, mesh: Mesh, displacement: np.ndarray)
 
 def contact_in_cell(bellows: BellowsParameters, cell: Solution) -> WallContact:
     """Contact in the actuator that a unit cell stands for, where the solver models it."""
-    overlap = _outer_gaps(bellows, *chain(bellows, cell)).overlap
+    overlap = _overlaps_itself(bellows, cell)
     outer, inner = (image_gap(cell, surface) for surface in (OUTSIDE, CAVITY))
-    mesh, displacement = cell.problem.mesh, cell.displacement
-    missed = _unmodelled_in_cell(bellows, mesh, displacement)
-    within = _gap_within(mesh, displacement)
+    outside, inside = _gaps_in_cell(cell.problem.mesh, cell.displacement)
+    missed, within = _unmodelled_in_cell(bellows, outside, inside), _narrowest(inside)
     modelled = {NEIGHBOURS: _touches(outer), INSIDE: _touches(inner)}
     touching = tuple(
         name for name in (NEIGHBOURS, OUTER, INSIDE) if modelled.get(name) or name in missed
@@ -135,14 +135,31 @@ def image_gap(cell: Solution, surface: str) -> float | None:
     return min((gap for gap in own if gap is not None), default=None)
 
 
-def _unmodelled_in_cell(
-    bellows: BellowsParameters, mesh: Mesh, displacement: np.ndarray
-) -> tuple[str, ...]:
+def _overlaps_itself(bellows: BellowsParameters, cell: Solution) -> bool:
+    """Whether distant parts of the actuator run through each other.
+
+    Each bubble lies between the planes of its gaps' middles, which all meet in the centre of the
+    arc. As long as these wedges make less than a full turn together, less one on either side by
+    which a fold may pass its plane, distant ones cannot meet.
+    """
+    wedge = 2 * abs(cell.plane[0])
+    if (bellows.bubble_count + 2) * wedge < 2 * np.pi:
+        return False
+    return _outer_gaps(bellows, *chain(bellows, cell)).overlap
+
+
+def _gaps_in_cell(mesh: Mesh, displacement: np.ndarray) -> tuple[Gaps, Gaps]:
+    """Gaps that are seen from the outside of a cell, and those seen from its cavity."""
+    walls = (OUTSIDE, CAVITY)
+    gaps = facing_gaps(mesh, displacement, *mesh.surfaces, seen_from=walls)
+    outside, inside = (gaps.chosen(gaps.surfaces == number) for number in range(len(walls)))
+    return outside, inside
+
+
+def _unmodelled_in_cell(bellows: BellowsParameters, outside: Gaps, inside: Gaps) -> tuple[str, ...]:
     """Names of walls of a cell that touch each other, not their mirror images."""
-    others = (name for name in mesh.surfaces if name != OUTSIDE)
-    outside = facing_gaps(mesh, displacement, OUTSIDE, *others, seen_from=(OUTSIDE,))
     folded = (outside.distances[~_in_notch(bellows, outside)] <= 0).any()
-    names = {OUTER: folded, INSIDE: _touches(_gap_within(mesh, displacement))}
+    names = {OUTER: folded, INSIDE: _touches(_narrowest(inside))}
     return tuple(name for name, touching in names.items() if touching)
 
 
@@ -151,10 +168,8 @@ def _in_notch(bellows: BellowsParameters, gaps: Gaps) -> np.ndarray:
     return np.linalg.norm(gaps.starts - gaps.ends, axis=1) < bellows.bubble_distance / 2
 
 
-def _gap_within(mesh: Mesh, displacement: np.ndarray) -> float | None:
-    """Air (mm) between a cell's own inner walls, such as the channel's floor and roof."""
-    others = (name for name in mesh.surfaces if name != CAVITY)
-    gaps = facing_gaps(mesh, displacement, CAVITY, *others, seen_from=(CAVITY,))
+def _narrowest(gaps: Gaps) -> float | None:
+    """Narrowest air (mm), such as between the channel's floor and roof; None without any."""
     return float(gaps.distances.min()) if gaps.distances.size else None
 
 

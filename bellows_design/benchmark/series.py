@@ -77,8 +77,8 @@ class Level:
         if not self.converged or not reference.judges(model, self.work.elements):
             return TrueErrors()
         return TrueErrors(
-            _off(self.bending_angle_deg, reference.bending_angle_deg),
-            _off(self.max_von_mises_mpa, reference.max_von_mises_mpa),
+            off(self.bending_angle_deg, reference.bending_angle_deg),
+            off(self.max_von_mises_mpa, reference.max_von_mises_mpa),
         )
 
     def ratios(self, errors: TrueErrors) -> Ratios:
@@ -197,7 +197,8 @@ def finest_of(model: str, levels: Sequence[Level]) -> Reference:
     )
 
 
-def _off(value: float, exact: float) -> float | None:
+def off(value: float, exact: float) -> float | None:
+    """Error of a value in percent of the exact one; None where that is zero."""
     return 100 * abs(value / exact - 1) if exact else None
 
 

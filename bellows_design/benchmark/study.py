@@ -18,6 +18,7 @@ from bellows_design.analysis.evaluate import mesh_size
 from bellows_design.analysis.mesh_sequence import affordable_plan, next_plan, refined, started
 from bellows_design.analysis.models import HALF, UNIT_CELL, AnalysisModel, choose
 from bellows_design.analysis.whole_actuator import reading
+from bellows_design.benchmark.neighbours import Row, neighbour_rows
 from bellows_design.benchmark.reference import STORED, Reference, reference_of
 from bellows_design.benchmark.series import Level, Series, Work, finest_of
 from bellows_design.budget import DEFAULT, LONGEST, Budget
@@ -37,11 +38,15 @@ MOST_MESHES = 9
 
 @dataclass(frozen=True)
 class Study:
-    """A design's series, one for each model, and the machine they were timed on."""
+    """A design's series, one for each model, and the machine they were timed on.
+
+    ``neighbours``: the unit cell once more, from neighbours at several distances.
+    """
 
     design: Design
     series: tuple[Series, ...]
     machine: Machine
+    neighbours: tuple[Row, ...] = ()
 
     @property
     def converged(self) -> bool:
@@ -56,6 +61,7 @@ class Study:
             "pressure_mpa": self.design.load.pressure,
             "converged": self.converged,
             "models": [series.to_dict() for series in self.series],
+            "neighbours": [row.to_dict() for row in self.neighbours],
             "machine": self.machine.to_dict(),
         }
 
@@ -90,7 +96,15 @@ def study(
         _series(design, model, why, meshes or model.levels + 1, reference, progress, budget)
         for model, why in chosen.values()
     )
-    return Study(design, series, described)
+    return Study(design, series, described, _neighbours(design, series, progress, budget))
+
+
+def _neighbours(
+    design: Design, series: Sequence[Series], progress: Progress, budget: Budget
+) -> tuple[Row, ...]:
+    """Rows of the unit cell from its neighbours, where that model is measured."""
+    cells = [each for each in series if each.model == UNIT_CELL.name and each.converged]
+    return neighbour_rows(design, cells[0].reference, progress, budget) if cells else ()
 
 
 @cache

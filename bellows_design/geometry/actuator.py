@@ -17,6 +17,7 @@ from bellows_design.design.bellows_parameters import BellowsParameters
 from bellows_design.design.indent import Indent
 from bellows_design.design.lengths import FULL_ROUND_SNAP, SMALLEST_FEATURE, snapped_radius
 from bellows_design.design.port import Port
+from bellows_design.geometry.channel_ends import CHANNEL_ENDS
 from bellows_design.geometry.face_names import (
     BUBBLE_MIDDLE,
     CAVITY,
@@ -37,10 +38,6 @@ from bellows_design.geometry.named_solids import (
     prism,
     rounded_box,
 )
-
-CHANNEL_ENDS = (0.5, 0.25, 0.4, 0.75, 0.1)
-"""Where the channel may end, in its fillets past the middle of the last chamber: the first is used
-unless the CAD kernel fails there."""
 
 LOOSEST = 0.02
 """mm. A solid whose faces meet less exactly has no mesh that keeps the tolerance of an STL."""

@@ -14,7 +14,9 @@ from typing import Any
 import cadquery as cq
 from cadquery import func
 from OCP.BRepAlgoAPI import BRepAlgoAPI_Cut, BRepAlgoAPI_Fuse
-from OCP.TopTools import TopTools_ListOfShape
+from OCP.TopAbs import TopAbs_FACE
+from OCP.TopExp import TopExp
+from OCP.TopTools import TopTools_IndexedMapOfShape, TopTools_ListOfShape
 
 from bellows_design.errors import BellowsError
 
@@ -82,9 +84,8 @@ def _boolean(
     if not builder.IsDone():
         raise GeometryError("the CAD kernel could not combine the solids of this design")
     builder.SimplifyResult(True, False, 1e-6)
-    names = _carried_names(builder, (*arguments, *tools))
     solid = _only_solid(cq.Shape.cast(builder.Shape()))
-    return NamedSolid(solid, tuple(names[face] for face in solid.Faces()))
+    return NamedSolid(solid, _carried_names(builder, (*arguments, *tools), solid))
 
 
 def _shape_list(parts: Sequence[NamedSolid]) -> Any:
@@ -94,14 +95,29 @@ def _shape_list(parts: Sequence[NamedSolid]) -> Any:
     return shapes
 
 
-def _carried_names(builder: Any, parts: Sequence[NamedSolid]) -> dict[cq.Shape, str]:
-    names: dict[cq.Shape, str] = {}
+def _carried_names(builder: Any, parts: Sequence[NamedSolid], solid: cq.Solid) -> tuple[str, ...]:
+    """Name of each face of the result: that of the first part it came from."""
+    faces = _face_map(solid)
+    names = [""] * faces.Extent()
     for part in parts:
-        for face, name in zip(part.solid.Faces(), part.face_names, strict=True):
-            images = [cq.Shape.cast(image) for image in builder.Modified(face.wrapped)]
-            for image in images or [face]:
-                names.setdefault(image, name)
-    return names
+        sources = _face_map(part.solid)
+        for number, name in enumerate(part.face_names, start=1):
+            face = sources.FindKey(number)
+            modified = builder.Modified(face)
+            for image in modified if modified.Size() else (face,):
+                place = faces.FindIndex(image)  # 0: it is not in the result
+                if place and not names[place - 1]:
+                    names[place - 1] = name
+    if "" in names:
+        raise GeometryError("the CAD kernel lost track of the faces of this design")
+    return tuple(names)
+
+
+def _face_map(solid: cq.Solid) -> Any:
+    """Faces of a solid by their number from 1, in the order of ``solid.Faces()``."""
+    faces = TopTools_IndexedMapOfShape()
+    TopExp.MapShapes_s(solid.wrapped, TopAbs_FACE, faces)
+    return faces
 
 
 def _only_solid(shape: cq.Shape) -> cq.Solid:

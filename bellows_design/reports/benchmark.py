@@ -10,6 +10,7 @@ from rich.console import JustifyMethod, RenderableType
 from rich.table import Table
 
 if TYPE_CHECKING:
+    from bellows_design.benchmark.neighbours import Row
     from bellows_design.benchmark.reference import Reference
     from bellows_design.benchmark.series import Level, Series, Work
     from bellows_design.benchmark.study import Study
@@ -53,7 +54,43 @@ def benchmark_tables(study: Study) -> Sequence[RenderableType]:
             precision.add_row(series.model, *_precision(series, level), end_section=last)
     texts = [text for series in study.series for text in _findings(series)]
     legend = "estimate: the product's own, %; ratio: estimate over error"
-    return [work, precision, legend, *texts, _machine(study.machine)]
+    near = [_neighbours(study.neighbours)] if study.neighbours else []
+    return [work, precision, legend, *near, *texts, _machine(study.machine)]
+
+
+NEIGHBOURS = (
+    "lengths\nby",
+    "steps",
+    "itera-\ntions",
+    "factor-\nized",
+    "time,\ns",
+    "ordinary,\ns",
+    "angle,\n°",
+    "error,\n%",
+    "esti-\nmate",
+    "stress,\nMPa",
+    "error,\n%",
+    "esti-\nmate",
+)
+
+
+def _neighbours(rows: Sequence[Row]) -> Table:
+    """The design from neighbours, over the distance to them."""
+    table = _numbers("from a neighbour", NEIGHBOURS)
+    for row in rows:
+        table.add_row(
+            f"{100 * row.share:g} %",
+            *(str(n) for n in (row.steps, row.newton_iterations, row.factorizations)),
+            f"{row.seconds:.2f}",
+            f"{row.ordinary_seconds:.2f}",
+            f"{row.bending_angle_deg:.2f}",
+            _known(row.errors.bending_angle_percent, ".2f"),
+            _known(row.estimate.bending_angle_percent, ".2f"),
+            f"{row.max_von_mises_mpa:.3f}",
+            _known(row.errors.max_von_mises_percent, ".2f"),
+            _known(row.estimate.max_von_mises_percent, ".2f"),
+        )
+    return table
 
 
 def _numbers(title: str, headings: Sequence[str]) -> Table:

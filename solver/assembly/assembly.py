@@ -5,21 +5,21 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
-from solver.arrays import Integers, Reals
+from solver.arrays import Reals
 from solver.assembly.colouring import chunks
 from solver.assembly.contact import Contacts, contact_pairs
 from solver.assembly.free_rim import FreeRim
+from solver.assembly.layout import Layout
 from solver.assembly.moving_plane import MovingPlane
 from solver.assembly.pressure import pressure_facets
 from solver.assembly.springs import Springs
 from solver.assembly.state import State
 from solver.kernels.assembly import Places, assemble, assemble_plane, total_energy
 from solver.kernels.element import Solid
-from solver.kernels.pressure import PressureFacets, assemble_pressure, assemble_volume
+from solver.kernels.pressure import assemble_pressure, assemble_volume
 from solver.kernels.stress import extrapolated_stress
-from solver.linear.sparsity import Pattern, upper_pattern
+from solver.linear.sparsity import Pattern
 from solver.mesh.checks import check_elements
 from solver.mesh.elements import tetrahedron_rule
 from solver.problem.loads import couple, nodal_forces
@@ -56,37 +56,44 @@ class Equilibrium:
 
 
 class Assembly:
-    """Numbering, sparsity pattern and element data of a problem: what no state changes."""
+    """Residual and tangent of a problem: its layout, and element data that no state changes."""
 
     problem: Problem
-    numbering: Numbering
-    pattern: Pattern
+    layout: Layout
 
-    def __init__(self, problem: Problem, start: Reals | None = None) -> None:
-        """``start`` (n, 3): displacements that the supports act from, mm; by default none."""
+    def __init__(
+        self, problem: Problem, start: Reals | None = None, former: Layout | None = None
+    ) -> None:
+        """``start`` (n, 3): displacements that the supports act from, mm; by default none.
+
+        ``former``: the layout of a problem before, which is used again if it fits.
+        """
         mesh = problem.mesh
         self.problem = problem
+        check_elements(mesh)
+        same = former is not None and former.fits(problem)
+        self.layout = former if former is not None and same else Layout.of(problem)
         surface = problem.moving_plane
         self.plane = None if surface is None else MovingPlane.of(mesh, surface)
-        self.numbering = number_unknowns(mesh, problem.supports, problem.moving_plane)
-        check_elements(mesh)
-        dofs = self.numbering.of_tets(mesh)
-        at_plane = _touching(mesh.tets, self.plane)
-        plane_dofs = self._with_plane(dofs[at_plane])
-        self.pattern = upper_pattern(_joined(dofs, at_plane, plane_dofs), self.numbering.size)
-        order = chunks(mesh, np.flatnonzero(~at_plane))
-        self._places = Places(*order, dofs, self.pattern.entries(dofs))
-        self._at_plane = np.flatnonzero(at_plane).astype(np.int32)
-        self._plane_dofs, self._plane_entries = plane_dofs, self.pattern.entries(plane_dofs)
         self._solid = solid(problem)
+        self._facets = pressure_facets(mesh, self.layout.triangles, *self.layout.facets)
         self.dead_force = self.numbering.gather(nodal_forces(mesh, problem.loads))
         if self.plane is not None:
             self.dead_force[self.numbering.plane[0]] += couple(problem.loads)
-        self._facets = self._pressure_facets()
         self.springs = Springs.of(problem, self.numbering, self.pattern)
         still = np.zeros(mesh.nodes.shape) if start is None else start
         self._rim = FreeRim.of(problem, self.numbering, self.pattern, still)
         self.contacts = Contacts(problem, self.numbering, self.plane, self.pattern, still)
+
+    @property
+    def numbering(self) -> Numbering:
+        """Numbers of the unknowns."""
+        return self.layout.numbering
+
+    @property
+    def pattern(self) -> Pattern:
+        """Sparsity pattern of the tangent without contact at a moving plane."""
+        return self.layout.pattern
 
     def evaluate(
         self, state: State, pressure: float, tangent: bool = True, load: float = 0.0
@@ -121,13 +128,13 @@ class Assembly:
         jacobians = np.empty(len(self.problem.mesh.tets))
         displacement = np.ascontiguousarray(state.displacement)
         assemble(
-            self._solid, self._places, displacement, state.hydrostatic_pressure,
+            self._solid, self.layout.places, displacement, state.hydrostatic_pressure,
             self._geometric(state), tangent, residual, values, jacobians,
         )  # fmt: skip
         if self.plane is not None:
             assemble_plane(
-                self._solid, self._at_plane, self.plane.heights(state), state.plane[0],
-                self._plane_dofs, self._plane_entries, displacement, state.hydrostatic_pressure,
+                self._solid, self.layout.at_plane, self.plane.heights(state), state.plane[0],
+                *self.layout.plane, displacement, state.hydrostatic_pressure,
                 tangent, residual, values, jacobians,
             )  # fmt: skip
         return float(jacobians.min(initial=np.inf))
@@ -180,18 +187,6 @@ class Assembly:
         stress = state.geometric_stress
         return stress if len(stress) else np.empty((len(self.problem.mesh.tets), 0, 6))
 
-    def _with_plane(self, dofs: Integers) -> Integers:
-        """The dofs (e, m) of cells with those of the moving plane at the end, (e, m + 2)."""
-        plane = np.broadcast_to(self.numbering.plane, (len(dofs), 2))
-        return np.hstack([dofs, plane])
-
-    def _pressure_facets(self) -> PressureFacets:
-        triangles = self.problem.mesh.triangles(*self.problem.pressurised)
-        dofs = self.numbering.of_triangles(triangles)
-        if self.plane is not None:
-            dofs = self._with_plane(dofs)
-        return pressure_facets(self.problem.mesh, triangles, dofs, self.pattern.entries(dofs))
-
 
 def unbalanced_forces(problem: Problem, state: State, pressure: float, load: float) -> Reals:
     """Out-of-balance nodal forces (n, 3) in N: zero except where supports act.
@@ -224,20 +219,6 @@ def unbalanced_forces(problem: Problem, state: State, pressure: float, load: flo
 
 
 NO_SUPPORTS = Supports()
-
-
-def _touching(tets: Integers, plane: MovingPlane | None) -> NDArray[np.bool_]:
-    """Which elements have a node on the moving plane, (e,)."""
-    nodes = () if plane is None else plane.nodes
-    return np.asarray(np.isin(tets, nodes).any(axis=1))
-
-
-def _joined(dofs: Integers, at_plane: NDArray[np.bool_], plane_dofs: Integers) -> Integers:
-    """The dofs of all elements (e, 36): those ``at_plane`` also have the plane's."""
-    joined = np.full((len(dofs), plane_dofs.shape[1]), -1, np.int32)
-    joined[:, : dofs.shape[1]] = dofs
-    joined[at_plane] = plane_dofs
-    return joined
 
 
 def solid(problem: Problem) -> Solid:

@@ -71,6 +71,18 @@ def contact_pressures(face: Face, gaps: Reals) -> Reals:
 
 
 @compiled()
+def contact_slopes(face: Face, gaps: Reals) -> Reals:
+    """d2psi/dg2 (k, q) at signed gaps (k, q) of quadrature points, MPa/mm."""
+    slopes = np.empty(gaps.shape)
+    for triangle in range(gaps.shape[0]):
+        for point in range(gaps.shape[1]):
+            slopes[triangle, point] = contact_law(
+                gaps[triangle, point], face.stiffness, face.smoothing
+            )[2]
+    return slopes
+
+
+@compiled()
 def face_energy(face: Face, plane: Plane, displacement: Reals) -> float:
     """Contact energy of a face, N mm."""
     energy = 0.0

@@ -7,7 +7,9 @@ import os
 import site
 import sys
 import weakref
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -177,6 +179,7 @@ def _failure(error: int, phase: int) -> Exception:
     return SingularMatrix(text) if error in SINGULAR else RuntimeError(text)
 
 
+@cache
 def _load_mkl() -> ctypes.CDLL:
     """MKL's single dynamic library, as its wheel or conda installs it, or the system's.
 
@@ -192,6 +195,21 @@ def _load_mkl() -> ctypes.CDLL:
             continue
         return _with_our_interface(library)
     raise ImportError("MKL (mkl_rt) cannot be loaded; install the package mkl.")
+
+
+@contextmanager
+def threads_of_mkl(count: int) -> Iterator[None]:
+    """Within the block, calls of MKL from this thread take so many threads, where MKL is there."""
+    try:
+        library = _load_mkl()
+    except ImportError:
+        yield
+        return
+    usual = library.MKL_Set_Num_Threads_Local(count)
+    try:
+        yield
+    finally:
+        library.MKL_Set_Num_Threads_Local(usual)
 
 
 def _with_our_interface(library: ctypes.CDLL) -> ctypes.CDLL:

@@ -116,7 +116,7 @@ def incidence(table: Integers, size: int) -> tuple[Integers, Integers]:
     return pointer.astype(np.int32), rows[np.argsort(flat, kind="stable")]
 
 
-@njit(cache=True)
+@njit(cache=True, nogil=True)
 def is_odd(permutation: Integers) -> bool:
     """Whether a permutation (n,) is made of an odd number of swaps."""
     seen = np.zeros(len(permutation), np.bool_)
@@ -131,28 +131,46 @@ def is_odd(permutation: Integers) -> bool:
     return (len(permutation) - cycles) % 2 == 1
 
 
-@njit(cache=True)
+@njit(cache=True, nogil=True)
+def _same_cells(pointer: Integers, cells: Integers, row: int) -> bool:
+    """Whether an unknown belongs to the same cells as the one before, as those of one node do."""
+    before, start, end = pointer[row - 1], pointer[row], pointer[row + 1]
+    if start - before != end - start or start == end:
+        return False
+    different = 0
+    for k in range(end - start):
+        different += cells[before + k] != cells[start + k]
+    return different == 0
+
+
+@njit(cache=True, nogil=True)
 def _count_columns(
-    dofs: Integers, pointer: Integers, rows: Integers, counts: NDArray[np.int64]
+    dofs: Integers, pointer: Integers, cells: Integers, counts: NDArray[np.int64]
 ) -> None:
     seen_by = np.full(len(pointer), -1)
     for row in range(len(pointer) - 1):
+        if row and _same_cells(pointer, cells, row):  # all columns but the row before itself
+            counts[row + 1] = counts[row] - 1
+            continue
         for place in range(pointer[row], pointer[row + 1]):
-            for column in dofs[rows[place]]:
+            for column in dofs[cells[place]]:
                 if column >= row and seen_by[column] != row:
                     seen_by[column] = row
                     counts[row + 1] += 1
 
 
-@njit(cache=True)
+@njit(cache=True, nogil=True)
 def _fill_columns(
-    dofs: Integers, pointer: Integers, rows: Integers, indptr: NDArray[np.int64], indices: Integers
+    dofs: Integers, pointer: Integers, cells: Integers, indptr: NDArray[np.int64], indices: Integers
 ) -> None:
     seen_by = np.full(len(pointer), -1)
     for row in range(len(pointer) - 1):
         end = indptr[row]
+        if row and _same_cells(pointer, cells, row):
+            indices[end : indptr[row + 1]] = indices[indptr[row - 1] + 1 : end]
+            continue
         for place in range(pointer[row], pointer[row + 1]):
-            for column in dofs[rows[place]]:
+            for column in dofs[cells[place]]:
                 if column >= row and seen_by[column] != row:
                     seen_by[column] = row
                     indices[end] = column
@@ -160,18 +178,45 @@ def _fill_columns(
         indices[indptr[row] : end].sort()
 
 
-@njit(cache=True, parallel=True)
+@njit(cache=True, nogil=True, parallel=True)
 def _locate(indptr: Integers, indices: Integers, dofs: Integers, places: Integers) -> None:
     for cell in prange(len(dofs)):
-        entry = 0
-        for i in range(dofs.shape[1]):
-            for j in range(i, dofs.shape[1]):
-                row = min(dofs[cell, i], dofs[cell, j])
-                column = max(dofs[cell, i], dofs[cell, j])
-                if row < 0:
-                    places[cell, entry] = -1
-                else:
-                    start, end = indptr[row], indptr[row + 1]
-                    place = start + np.searchsorted(indices[start:end], column)
-                    places[cell, entry] = place
-                entry += 1
+        _locate_cell(indptr, indices, dofs[cell], places[cell])
+
+
+@njit(cache=True, nogil=True)
+def _locate_cell(indptr: Integers, indices: Integers, dofs: Integers, places: Integers) -> None:
+    """Positions of one cell's entries: columns in ascending order, each found behind the last.
+
+    The unknowns of a node follow each other, so that most columns stand right behind the last.
+    """
+    width = len(dofs)
+    order = np.argsort(dofs)
+    places[:] = -1
+    for a in range(width):
+        i = order[a]
+        row = dofs[i]
+        if row < 0:
+            continue
+        place = indptr[row]
+        for b in range(a, width):
+            j = order[b]
+            place = _found_from(indices, place, indptr[row + 1], dofs[j])
+            first, last = min(i, j), max(i, j)
+            places[first * width - first * (first + 1) // 2 + last] = place
+
+
+@njit(cache=True, nogil=True)
+def _found_from(indices: Integers, start: int, end: int, column: int) -> int:
+    """Where a column stands in the ascending ``indices`` from ``start`` to ``end``."""
+    for place in range(start, min(start + 2, end)):
+        if indices[place] == column:
+            return place
+    low, high = start, end
+    while low < high:
+        middle = (low + high) // 2
+        if indices[middle] < column:
+            low = middle + 1
+        else:
+            high = middle
+    return low

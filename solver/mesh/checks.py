@@ -9,11 +9,9 @@ from solver.arrays import Integers
 from solver.errors import SolverError
 from solver.mesh.elements import TETRAHEDRON_EDGES as EDGES
 from solver.mesh.elements import TRIANGLE_EDGES
+from solver.mesh.faces import face_keys, place_of
 from solver.mesh.jacobians import least_jacobians
 from solver.mesh.mesh import Mesh
-
-FACES = ((0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2))
-"""Corners of a tetrahedron's faces, with outward normals."""
 
 
 def check_mesh(mesh: Mesh, pressurised: tuple[str, ...], loaded: tuple[str, ...] = ()) -> None:
@@ -24,26 +22,16 @@ def check_mesh(mesh: Mesh, pressurised: tuple[str, ...], loaded: tuple[str, ...]
     """
     if len(mesh.tets) == 0:
         raise SolverError("mesh: it has no tetrahedra.")
-    faces = np.concatenate([mesh.tets[:, face] for face in FACES])
-    _, first, counts = np.unique(
-        _key(np.sort(faces, axis=1), mesh), return_index=True, return_counts=True
-    )
-    if counts.max() > 2:
-        place = _place(mesh, faces[first[counts.argmax()]])
-        raise SolverError(
-            f"mesh: {counts.max()} tetrahedra share a face at {place} mm; two can, the others are "
-            "given twice or overlap."
-        )
-    outer = _key(faces[first[counts == 1]], mesh)
+    outer = mesh.outer_faces
     for surface in (*pressurised, *loaded):
         _check_surface(mesh, surface, outer)
     triangles = mesh.triangles(*pressurised)
-    keys, first = np.unique(_key(triangles, mesh), return_index=True)
+    keys, first = np.unique(face_keys(triangles, len(mesh.nodes)), return_index=True)
     if len(keys) < len(triangles):
         twice = np.setdiff1d(np.arange(len(triangles)), first)[0]
         raise SolverError(
             f"loads: a triangle of {', '.join(map(repr, pressurised))} at "
-            f"{_place(mesh, triangles[twice])} mm is pressurised twice."
+            f"{place_of(mesh.nodes, triangles[twice])} mm is pressurised twice."
         )
 
 
@@ -78,20 +66,21 @@ def _check_surface(mesh: Mesh, surface: str, outer: NDArray[np.int64]) -> None:
     triangles = mesh.triangles(surface)
     if len(triangles) == 0:
         raise SolverError(f"loads: the surface {surface!r} has no triangles.")
-    wrong = ~np.isin(_key(triangles, mesh), outer)
+    wrong = ~np.isin(face_keys(triangles, len(mesh.nodes)), outer)
     if wrong.any():
         bad = triangles[wrong][0]
-        inwards = np.isin(_key(bad[None, [0, 2, 1]], mesh), outer).all()
+        inwards = np.isin(face_keys(bad[None, [0, 2, 1]], len(mesh.nodes)), outer).all()
         what = "faces into the body" if inwards else "is no outer face of a tetrahedron"
         raise SolverError(
-            f"loads: a triangle of the surface {surface!r} at {_place(mesh, bad)} mm {what}."
+            f"loads: a triangle of the surface {surface!r} at {place_of(mesh.nodes, bad)} mm "
+            f"{what}."
         )
     askew = ~np.isin(_edges(triangles, TRIANGLE_EDGES, mesh), _edges(mesh.tets, EDGES, mesh))
     if askew.any():
         bad = triangles[askew.reshape(-1, 3).any(axis=1)][0]
         raise SolverError(
-            f"loads: a triangle of the surface {surface!r} at {_place(mesh, bad)} mm has other "
-            "mid-nodes than its tetrahedron."
+            f"loads: a triangle of the surface {surface!r} at {place_of(mesh.nodes, bad)} mm "
+            "has other mid-nodes than its tetrahedron."
         )
 
 
@@ -101,16 +90,3 @@ def _edges(cells: Integers, edges: tuple[tuple[int, int], ...], mesh: Mesh) -> N
     ends = np.sort(np.stack([cells[:, edge] for edge in edges], axis=1).astype(np.int64), axis=2)
     size = len(mesh.nodes)
     return ((ends[..., 0] * size + ends[..., 1]) * size + cells[:, corners:]).ravel()
-
-
-def _key(triangles: Integers, mesh: Mesh) -> NDArray[np.int64]:
-    """One number for the corners of each triangle in their cyclic order, (k,)."""
-    corners = triangles[:, :3].astype(np.int64)
-    turns = (np.arange(3) + corners.argmin(axis=1)[:, None]) % 3
-    a, b, c = np.take_along_axis(corners, turns, axis=1).T
-    return (a * len(mesh.nodes) + b) * len(mesh.nodes) + c
-
-
-def _place(mesh: Mesh, triangle: Integers) -> str:
-    """Centroid of a triangle's corners, as text."""
-    return f"({', '.join(f'{x:.4g}' for x in mesh.nodes[triangle[:3]].mean(axis=0))})"

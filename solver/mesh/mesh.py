@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from types import MappingProxyType
 from typing import Any
@@ -15,6 +15,7 @@ from solver.arrays import Integers, Reals
 from solver.errors import SolverError
 from solver.input_types import mapping, shown
 from solver.mesh.elements import TETRAHEDRON_EDGES
+from solver.mesh.faces import outer_faces
 
 
 @dataclass(frozen=True)
@@ -70,6 +71,14 @@ class Mesh:
         """The corners of each tetrahedron as positions in ``vertices``. (e, 4)"""
         return np.searchsorted(self.vertices, self.tets[:, :4]).astype(np.int32)
 
+    @cached_property
+    def outer_faces(self) -> NDArray[np.int64]:
+        """Keys (k,) of the faces of one tetrahedron only, see ``solver.mesh.faces``.
+
+        Raises ``SolverError`` if more than two tetrahedra share a face.
+        """
+        return outer_faces(self.nodes, self.tets)
+
     @property
     def size(self) -> float:
         """Diagonal of the bounding box, mm."""
@@ -83,6 +92,26 @@ class Mesh:
         )
         return float(np.linalg.norm(a - b, axis=2).mean()) if len(self.tets) else 0.0
 
+    def moved(self, nodes: Reals) -> Mesh:
+        """The same tetrahedra and surfaces with nodes elsewhere.
+
+        Args:
+            nodes: their new reference coordinates.
+
+                *Shape:* (n, 3) in mm.
+
+        Raises:
+            SolverError: another number of nodes, or a coordinate that is not finite.
+        """
+        if np.shape(nodes) != self.nodes.shape:
+            raise SolverError(
+                f"mesh: moved nodes must have the shape {self.nodes.shape}, got {np.shape(nodes)}."
+            )
+        other = replace(self, nodes=nodes)
+        known = {name: self.__dict__[name] for name in CONNECTIVITY if name in self.__dict__}
+        other.__dict__.update(known)
+        return other
+
     def triangles(self, *names: str) -> Integers:
         """All six-node triangles of the named surfaces, (k, 6); ``SolverError`` if unknown."""
         for name in names:
@@ -95,6 +124,10 @@ class Mesh:
     def surface_nodes(self, *names: str) -> Integers:
         """Sorted unique node numbers of the named surfaces; ``SolverError`` if one is unknown."""
         return np.unique(self.triangles(*names))
+
+
+CONNECTIVITY = ("vertices", "tet_vertices", "outer_faces")
+"""Properties of a mesh that do not depend on where its nodes are."""
 
 
 def _table(name: str, values: ArrayLike, width: int, dtype: DTypeLike) -> NDArray[Any]:

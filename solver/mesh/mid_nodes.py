@@ -50,10 +50,17 @@ def relaxed(nodes: Reals, tets: Integers) -> Reals:
 
 
 def _determinants(corners: Reals, gradients: Reals) -> Reals:
-    """Jacobian determinants (e, q) of elements (e, 10, 3) at points with gradients (q, 10, 3)."""
-    jacobians = np.einsum("eni,qnj->eqij", corners, gradients, optimize=True)
-    first, second, third = np.moveaxis(jacobians, -1, 0)
-    return np.einsum("eqi,eqi->eq", np.cross(first, second), third)
+    """Jacobian determinants (e, q) of elements (e, 10, 3) at points with gradients (q, 10, 3).
+
+    One product of two matrices gives all Jacobians: that is what takes the time.
+    """
+    weights = gradients.transpose(2, 0, 1).reshape(-1, 10)
+    positions = corners.transpose(1, 2, 0).reshape(10, -1)
+    a, b, c = (weights @ positions).reshape(3, len(gradients), 3, len(corners)).swapaxes(1, 2)
+    determinants: Reals = a[0] * (b[1] * c[2] - b[2] * c[1])
+    determinants += a[1] * (b[2] * c[0] - b[0] * c[2])
+    determinants += a[2] * (b[0] * c[1] - b[1] * c[0])
+    return determinants.T
 
 
 def _lattice() -> Reals:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from solver.arrays import Integers, Reals
 from solver.mesh.mesh import Mesh
@@ -25,11 +26,17 @@ class Gaps:
     - ``distances`` (k,): width of the gap between them, mm; where a facet lies inside the body,
       minus its depth.
     - ``starts``, ``ends`` (k, 3): centres of the two facets in the undeformed body, mm.
+    - ``surfaces`` (k,): from which of the surfaces each ray starts, in the order asked for.
     """
 
     distances: Reals
     starts: Reals
     ends: Reals
+    surfaces: Integers
+
+    def chosen(self, rows: NDArray[np.bool_]) -> Gaps:
+        """Some of the pairs."""
+        return Gaps(self.distances[rows], self.starts[rows], self.ends[rows], self.surfaces[rows])
 
 
 def facing_gaps(
@@ -52,6 +59,8 @@ def facing_gaps(
     others = tuple(name for name in surfaces if name not in sources)
     starts = _flat_facets(mesh.triangles(*sources))
     facets = np.concatenate([starts, _flat_facets(mesh.triangles(*others))])
+    lengths = [len(mesh.surfaces[name]) for name in sources]
+    surface = np.tile(np.repeat(np.arange(len(sources), dtype=np.int32), lengths), len(PARTS))
     body = trimesh.Trimesh(mesh.nodes + displacement, facets, process=False)
     centres, normals = body.triangles_center, body.face_normals
     rays, hit, ahead = _first_hits(
@@ -65,7 +74,7 @@ def facing_gaps(
     behind[back] = depths
     signed = np.where(inside, -np.minimum(ahead, behind[rays]), ahead)
     reference = mesh.nodes[facets].mean(axis=1)
-    return Gaps(signed, reference[rays], reference[hit])
+    return Gaps(signed, reference[rays], reference[hit], surface[rays])
 
 
 def facet_normals(mesh: Mesh, displacement: Reals, *surfaces: str) -> tuple[Reals, Reals]:
@@ -90,5 +99,8 @@ def _first_hits(
 
 def _flat_facets(triangles: Integers) -> Integers:
     """Six-node triangles (k, 6) as four flat ones each, (4k, 3)."""
-    parts = ((0, 3, 5), (3, 1, 4), (5, 4, 2), (3, 4, 5))
-    return np.concatenate([triangles[:, part] for part in parts])
+    return np.concatenate([triangles[:, part] for part in PARTS])
+
+
+PARTS = ((0, 3, 5), (3, 1, 4), (5, 4, 2), (3, 4, 5))
+"""Nodes of the flat facets of a six-node triangle."""

@@ -200,11 +200,23 @@ def _named_surfaces(
 ) -> dict[str, NDArray[np.int32]]:
     """Six-node triangles by name, taken from the tetrahedra so that normals point outwards."""
     outward = _faces_of(tets)
-    rows = {tuple(key): row for row, key in enumerate(np.sort(outward[:, :3], axis=1).tolist())}
-    picked: dict[str, list[int]] = {name: [] for name in names}
+    keys = _corner_keys(outward[:, :3])
+    order = np.argsort(keys, kind="stable")
+    picked: dict[str, list[NDArray[np.int32]]] = {name: [] for name in names}
     for name, triangles in zip(names, corners, strict=True):
-        picked[name] += [rows[tuple(key)] for key in np.sort(triangles, axis=1).tolist()]
-    return {name: outward[chosen] for name, chosen in picked.items()}
+        wanted = _corner_keys(triangles)
+        found = order[np.minimum(np.searchsorted(keys, wanted, sorter=order), len(keys) - 1)]
+        if (keys[found] != wanted).any():
+            raise MeshingError(f"a triangle of the surface {name!r} is no face of a tetrahedron")
+        picked[name].append(outward[found])
+    return {name: np.concatenate(chosen) for name, chosen in picked.items()}
+
+
+def _corner_keys(corners: NDArray[Any]) -> NDArray[np.int64]:
+    """One number for the corners (k, 3) of each triangle, whatever their order, (k,)."""
+    low, middle, high = np.sort(corners.astype(np.int64), axis=1).T
+    keys: NDArray[np.int64] = (low << 42) + (middle << 21) + high
+    return keys
 
 
 def _faces_of(tets: NDArray[np.int32]) -> NDArray[np.int32]:

@@ -173,11 +173,20 @@ def _best_fit_rotation(nodes: Reals, displacement: Reals) -> float:
     before = nodes - nodes.mean(axis=0)
     moved = nodes + displacement
     after = moved - moved.mean(axis=0)
-    turn = _rotation_in_space(before, after)
-    if turn[1, 1] < ABOUT_Y:
+    turn, about_another_axis = turn_of(before, after)
+    if about_another_axis:
         return _part_about_y(turn)
     before, after = before[:, [0, 2]], after[:, [0, 2]]
     return float(np.arctan2((_quarter_turn(before) * after).sum(), (before * after).sum()))
+
+
+def turn_of(before: Reals, after: Reals) -> tuple[Reals, bool]:
+    """Rotation (3, 3) in space between centred positions (k, 3), and whether it counts for y's.
+
+    It does if they are turned about another axis, so that their plane says nothing.
+    """
+    turn = _rotation_in_space(before, after)
+    return turn, bool(turn[1, 1] < ABOUT_Y)
 
 
 def _part_about_y(turn: Reals) -> float:

@@ -2,23 +2,66 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
+import numpy as np
+
 from solver.arrays import Reals
 from solver.assembly.assembly import Assembly, Equilibrium
 from solver.assembly.state import State
+from solver.linear.interface import LinearSolver
 from solver.linear.scaling import factors, scaled
 from solver.linear.solvers import linear_solver
+from solver.linear.sparsity import Pattern
+
+
+@dataclass(frozen=True)
+class Kind:
+    """What decides which linear solver a matrix gets: its name, symmetry, and scale (m,)."""
+
+    name: str
+    symmetric: bool
+    scale: Reals | None
+
+    def same(self, other: Kind) -> bool:
+        """Whether one solver does for both."""
+        names = (self.name, self.symmetric) == (other.name, other.symmetric)
+        if self.scale is None or other.scale is None:
+            return names and self.scale is other.scale
+        return names and np.array_equal(self.scale, other.scale)
 
 
 class LinearSystem:
-    """The last factorization of the tangent of an ``assembly``, by the solver ``name``."""
+    """The last factorization of the tangent of an ``assembly``, by the solver ``name``.
 
-    def __init__(self, assembly: Assembly, name: str) -> None:
+    Attributes:
+        factorized: whether there is a factorization, of this assembly or of one before.
+    """
+
+    factorized: bool
+    _solver: LinearSolver
+    _analyzed: Pattern
+
+    def __init__(self, assembly: Assembly, name: str, former: LinearSystem | None = None) -> None:
+        """``former``: of a problem before, of no use after that.
+
+        Its ordering, and until the next one its factorization, are taken over if the matrices are
+        of one kind.
+        """
         self._numbering = assembly.numbering
         self._pressures = len(assembly.problem.mesh.vertices)
-        solver = linear_solver(name, assembly.symmetric)
-        self._solver = scaled(solver, factors(assembly.problem, assembly.numbering))
+        self._kind = Kind(name, assembly.symmetric, factors(assembly.problem, assembly.numbering))
+        if former is not None and former._kind.same(self._kind):
+            self._solver, self._analyzed = former._solver, former._analyzed
+            self.factorized = former.factorized
+            return
+        self._solver = scaled(linear_solver(name, assembly.symmetric), self._kind.scale)
         self._solver.analyze(assembly.pattern)
-        self._analyzed = assembly.pattern
+        self._analyzed, self.factorized = assembly.pattern, False
+
+    def forget(self) -> None:
+        """Drop the factorization: it is of a state that led nowhere."""
+        self.factorized = False
 
     @property
     def name(self) -> str:
@@ -32,10 +75,12 @@ class LinearSystem:
 
     def factorize(self, equilibrium: Equilibrium) -> None:
         """Factorize a tangent; contact may have changed its pattern. Raises ``SingularMatrix``."""
+        self.factorized = False
         if equilibrium.pattern is not self._analyzed:
             self._solver.analyze(equilibrium.pattern)
             self._analyzed = equilibrium.pattern
         self._solver.factorize(equilibrium.tangent, equilibrium.skew)
+        self.factorized = True
 
     def solve(self, right_hand_side: Reals, transposed: bool = False) -> Reals:
         """Solve for the unknowns (m,) with the last factorization, or its transpose."""

@@ -13,7 +13,7 @@ without. It does not help cells with a moving plane, short and thick, and is not
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import InitVar, dataclass, field, replace
 
 import numpy as np
 
@@ -104,6 +104,8 @@ class Newton:
     """Newton's method on one problem at fractions (``load``) of a ``loading``.
 
     Holds what is computed once per mesh, the last factorization, and counts of the effort.
+    ``former``: of a problem before, on a mesh that may differ in the positions of its nodes; what
+    both have in common is taken over from it, which is then of no use any more.
     """
 
     problem: Problem
@@ -111,16 +113,22 @@ class Newton:
     options: SolverOptions
     listener: Listener | None = None
     effort: Effort = field(default_factory=Effort)
+    former: InitVar[Newton | None] = None
+    assembly: Assembly = field(init=False)
+    system: LinearSystem = field(init=False)
 
-    def __post_init__(self) -> None:
+    def __post_init__(self, former: Newton | None) -> None:
         if self.loading.pressures[1] and not self.problem.pressurised:
             raise SolverError(
                 f"pressure = {self.loading.pressures[1]:g} MPa: the problem has no pressurised "
                 "surface."
             )
         mesh = self.problem.mesh
-        self.assembly = Assembly(self.problem, self.loading.start.displacement)
-        self.system = LinearSystem(self.assembly, self.options.linear_solver)
+        layout, system = (former.assembly.layout, former.system) if former else (None, None)
+        self.assembly = Assembly(self.problem, self.loading.start.displacement, layout)
+        if system is not None and self.assembly.layout is not layout:
+            system = None
+        self.system = LinearSystem(self.assembly, self.options.linear_solver, system)
         self.kinematics = Kinematics.of(self.problem, self.assembly.plane, self.loading)
         self.fading_force = self._fading_force()
         self.slender = self.problem.axis is not None and self.assembly.plane is None
@@ -134,20 +142,34 @@ class Newton:
         """Which part of the budget is spent, as text; empty while something is left."""
         return self.budget.exhausted(self.effort)
 
-    def correct(self, guess: State, load: float, tolerance: float, onward: bool = False) -> Attempt:
+    def correct(
+        self,
+        guess: State,
+        load: float,
+        tolerance: float,
+        onward: bool = False,
+        previous: float = 0.0,
+    ) -> Attempt:
         """Equilibrium at a fixed load from ``guess``; with contact, if need be in two stages.
 
         ``onward``: with the direction in which the path continues. Ends without one where the
-        solve's budget is spent.
+        solve's budget is spent. ``previous``: the ``distance`` of a correction before, if any.
         """
-        attempt = self.iterate(guess, load, tolerance, onward)
+        attempt = self.iterate(guess, load, tolerance, onward, previous)
         if not attempt.failure or not attempt.touched:
             return attempt
         with self.assembly.contacts.softened():
             soft = self.iterate(guess, load, tolerance)
         return attempt if soft.failure else self.iterate(soft.state, load, tolerance, onward)
 
-    def iterate(self, guess: State, load: float, tolerance: float, onward: bool = False) -> Attempt:
+    def iterate(
+        self,
+        guess: State,
+        load: float,
+        tolerance: float,
+        onward: bool = False,
+        previous: float = 0.0,
+    ) -> Attempt:
         """Newton iterations at a fixed load from ``guess``, until a correction is small.
 
         Both fields must be: where supports prescribe how a body deforms, displacements are right at
@@ -159,7 +181,7 @@ class Newton:
         contacts' ``depth`` nor change much what rigid planes exert, and twice as many iterations
         are allowed, for the set of points in contact to converge.
         """
-        state, previous = guess, 0.0
+        state = guess
         reuse = own = touched = False
         iteration = 0
         while iteration < self.options.maximum_iterations * (2 if touched else 1):
@@ -168,7 +190,7 @@ class Newton:
             iteration += 1
             own = own if reuse else not len(state.geometric_stress)
             try:
-                found = self._correction(state, load, reuse, iteration)
+                found = self.correction(state, load, reuse, iteration)
             except NoCorrection as reason:
                 return Attempt(guess, iteration, str(reason), touched=touched)
             small, touches = self._is_small(found, load, tolerance)
@@ -186,7 +208,7 @@ class Newton:
         failure = f"Newton did not converge in {iteration} iterations"
         return Attempt(guess, iteration, failure, touched=touched)
 
-    def _correction(self, state: State, load: float, reuse: bool, iteration: int) -> Correction:
+    def correction(self, state: State, load: float, reuse: bool, iteration: int) -> Correction:
         """One correction, with the last factorization if ``reuse``. Raises ``NoCorrection``."""
         equilibrium = self.evaluate(state, load, tangent=not reuse)
         if not equilibrium.admissible:

@@ -23,6 +23,11 @@ from numba import config
 from solver.compilation import njit
 
 settings: Any = config
+
+# Threads of numba and of MKL, which have an OpenMP library each, shall sleep while they wait: busy
+# ones take the processor from each other, and from Gmsh.
+os.environ.setdefault("OMP_WAIT_POLICY", "PASSIVE")
+
 Function = TypeVar("Function", bound=Callable[..., Any])
 
 PACKAGE = Path(__file__).parents[1]
@@ -34,13 +39,18 @@ KEPT_SECONDS = 7 * 24 * 3600.0
 
 
 def compiled(**options: Any) -> Callable[[Function], Function]:
-    """Decorator: compile with numba's ``options``, and cache by the content of ``SOURCES``."""
+    """Decorator: compile with numba's ``options``, and cache by the content of ``SOURCES``.
+
+    Other threads of the program run meanwhile: compiled functions touch arrays and numbers only.
+    """
 
     def decorate(function: Function) -> Function:
         usual = settings.CACHE_DIR
         settings.CACHE_DIR = cache_folder(usual)
         try:
-            decorated: Function = njit(cache=True, error_model="numpy", **options)(function)
+            decorated: Function = njit(cache=True, error_model="numpy", nogil=True, **options)(
+                function
+            )
         finally:
             settings.CACHE_DIR = usual
         return decorated

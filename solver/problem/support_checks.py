@@ -63,14 +63,15 @@ def check_pressure(mesh: Mesh, fixed: NDArray[np.bool_]) -> None:
     derivative of the volume vanishes at inner nodes, so a displacement on the surface must be free.
     """
     rule = tetrahedron_rule()
-    tangents = np.einsum("qad,eai->eqdi", rule.gradients, mesh.nodes[mesh.tets])
+    tangents = np.einsum("qad,eai->eqdi", rule.gradients, mesh.nodes[mesh.tets], optimize=True)
     cofactors = np.stack(
         [np.cross(tangents[:, :, (d + 1) % 3], tangents[:, :, (d + 2) % 3]) for d in range(3)],
         axis=2,
     )
-    parts = np.einsum("q,qad,eqdi->eai", rule.weights, rule.gradients, cofactors)
-    derivative = np.zeros(mesh.nodes.shape)
-    np.add.at(derivative, mesh.tets, parts)
+    weighted = rule.weights[:, None, None] * rule.gradients
+    parts = np.einsum("qad,eqdi->eai", weighted, cofactors, optimize=True).reshape(-1, 3)
+    nodes, count = mesh.tets.ravel(), len(mesh.nodes)
+    derivative = np.stack([np.bincount(nodes, part, count) for part in parts.T], axis=1)
     if (np.abs(derivative) * ~fixed).max() <= NEGLIGIBLE * np.abs(derivative).max():
         raise SolverError(
             "supports: they prescribe the whole surface of an incompressible body, which leaves "

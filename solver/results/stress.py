@@ -9,6 +9,7 @@ import numpy as np
 from solver.arrays import Integers, Reals
 from solver.assembly.assembly import solid
 from solver.assembly.state import State
+from solver.kernels.element import Solid
 from solver.kernels.stress import deviatoric_stress
 from solver.mesh.elements import TETRAHEDRON_EDGES, tetrahedron_rule
 from solver.problem.problem import Problem
@@ -80,7 +81,7 @@ def peak_von_mises(solution: Solution) -> Peak:
     check_solution(solution)
     mesh = solution.problem.mesh
     stress = element_stress(solution)
-    at_nodes = _average(mesh.tets, stress.raw, stress.volumes, len(mesh.nodes))
+    at_nodes = averaged(mesh.tets, stress.raw, stress.volumes, len(mesh.nodes))
     values = np.where(trusted_nodes(solution.problem), von_mises(at_nodes), 0.0)
     node = int(values.argmax())
     differences = von_mises(stress.jumps[mesh.tets == node])
@@ -110,8 +111,8 @@ class ElementStress:
 def element_stress(solution: Solution) -> ElementStress:
     """Deviatoric stress in the elements of a solution, and smoothed over them."""
     mesh = solution.problem.mesh
-    raw, volumes = _in_elements(solution.problem, solution.displacement)
-    smoothed = _average(mesh.tets, raw, volumes, len(mesh.nodes))[mesh.tets]
+    raw, volumes = in_elements(solid(solution.problem), solution.displacement)
+    smoothed = averaged(mesh.tets, raw, volumes, len(mesh.nodes))[mesh.tets]
     return ElementStress(raw, smoothed, volumes)
 
 
@@ -138,23 +139,30 @@ def deviatoric_at_nodes(problem: Problem, displacement: Reals) -> Reals:
     In each element the linear field through the four quadrature points, extrapolated to its ten
     nodes; at each node the average over its elements, weighted by their volumes.
     """
-    in_elements, volumes = _in_elements(problem, displacement)
-    return _average(problem.mesh.tets, in_elements, volumes, len(problem.mesh.nodes))
+    at_nodes, volumes = in_elements(solid(problem), displacement)
+    return averaged(problem.mesh.tets, at_nodes, volumes, len(problem.mesh.nodes))
 
 
-def _in_elements(problem: Problem, displacement: Reals) -> tuple[Reals, Reals]:
+def extrapolation() -> Reals:
+    """Values (10, 4) at an element's nodes of the linear field through its quadrature points."""
+    corners = np.linalg.inv(tetrahedron_rule().linear)
+    middles = [(corners[a] + corners[b]) / 2 for a, b in TETRAHEDRON_EDGES]
+    values: Reals = np.concatenate([corners, middles])
+    return values
+
+
+def in_elements(body: Solid, displacement: Reals) -> tuple[Reals, Reals]:
     """Deviatoric stress at the ten nodes of each element (e, 10, 6), and element volumes (e,)."""
-    rule = tetrahedron_rule()
-    stress = np.empty((len(problem.mesh.tets), len(rule.weights), 6))
+    stress = np.empty((len(body.tets), len(body.weights), 6))
     volumes = np.empty(stress.shape[:2])
-    deviatoric_stress(solid(problem), np.ascontiguousarray(displacement), stress, volumes)
-    at_corners = np.einsum("vq,eqc->evc", np.linalg.inv(rule.linear), stress)
+    deviatoric_stress(body, np.ascontiguousarray(displacement), stress, volumes)
+    at_corners = np.einsum("vq,eqc->evc", np.linalg.inv(body.linear), stress)
     middles = [(at_corners[:, a] + at_corners[:, b]) / 2 for a, b in TETRAHEDRON_EDGES]
     at_nodes = np.concatenate([at_corners, np.stack(middles, axis=1)], axis=1)
     return at_nodes, volumes.sum(axis=1)
 
 
-def _average(
+def averaged(
     tets: Integers,
     values: Reals,
     volumes: Reals,

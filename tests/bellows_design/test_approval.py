@@ -35,6 +35,15 @@ def test_a_failed_printing_rule_refuses_and_a_warning_does_not() -> None:
     assert decide(DESIGN, fake_report(replace(WALL, verdict="warn")), GOOD).approved
 
 
+def test_a_result_reached_from_a_neighbour_never_approves() -> None:
+    class Neighbour(FakeEvaluation):
+        ordinary = False
+
+    verdict = decide(DESIGN, fake_report(), Neighbour(max_von_mises_mpa=1.0))
+    assert [reason.rule for reason in verdict.reasons] == ["history"]
+    assert not verdict.approved
+
+
 def test_a_rule_that_was_not_checked_is_not_a_pass() -> None:
     verdict = decide(DESIGN, PrintabilityReport("prusa_i3", ()), GOOD)
     assert {reason.rule for reason in verdict.reasons} == set(REQUIRED_RULES)

@@ -1,0 +1,213 @@
+"""Designs around one that was evaluated: its mesh is moved, its equilibrium is the start."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass, fields, replace
+from typing import TYPE_CHECKING
+
+from bellows_design.analysis.computation import Body, Computation, Seconds, SolvedMesh
+from bellows_design.analysis.evaluate import effort, evaluate, loaded_state, mesh_size
+from bellows_design.analysis.evaluation import Evaluation, LoadedState
+from bellows_design.budget import DEFAULT, Budget
+from bellows_design.design.design import Design
+from bellows_design.design.variation import between
+from bellows_design.errors import BellowsError, DesignError
+from bellows_design.neighbours.carried import REACH, Carried
+from bellows_design.neighbours.distance import distance
+from bellows_design.neighbours.equilibrium import Equilibrium
+from bellows_design.neighbours.record import NeighbourEvaluation
+from bellows_design.progress import SILENCE, Progress
+from solver.errors import SolverError
+
+if TYPE_CHECKING:
+    from solver import Solution
+    from solver.nonlinear.newton import Newton
+
+MOST_HALVINGS = 3
+"""Of the way to a design that cannot be reached at once."""
+
+MOST_STATES = 64
+"""Solved designs that are remembered besides the first; the oldest are forgotten first."""
+
+
+class NotReached(BellowsError):
+    """A design cannot be reached from its neighbour; the message says why."""
+
+
+@dataclass(frozen=True)
+class SolvedDesign:
+    """A design and the equilibrium of its body on the moved mesh."""
+
+    design: Design
+    solution: Solution
+
+
+@dataclass(frozen=True)
+class Way:
+    """The states between a start and a design, its own the last."""
+
+    solved: tuple[SolvedDesign, ...]
+
+    @property
+    def end(self) -> SolvedDesign:
+        """The last of them."""
+        return self.solved[-1]
+
+
+class Neighbourhood:
+    """A session around one ordinary evaluation: it remembers what is solved in it.
+
+    Building it takes about as long as a tenth of an evaluation. It holds the factors of one
+    tangent, about a hundred megabytes for five thousand tetrahedra.
+    """
+
+    def __init__(self, anchor: Evaluation) -> None:
+        """Raises ``DesignError`` if the evaluation did not reach its pressure, or is void."""
+        from bellows_design.morphing.morpher import Morpher
+
+        if not anchor.converged or anchor.contact.void:
+            raise DesignError(
+                f"near: the evaluation of {anchor.design.name} is no start for a neighbour: "
+                f"{anchor.message}"
+            )
+        self.anchor = anchor
+        self._carried = Carried.of(anchor)
+        finest = anchor.computation.finest
+        self._morpher = Morpher.of(anchor.design, anchor.model.name, finest.problem.mesh)
+        self._solved = [SolvedDesign(anchor.design, finest)]
+        self._newton: Newton | None = None
+
+    def evaluate(
+        self, design: Design, progress: Progress = SILENCE, budget: Budget = DEFAULT
+    ) -> NeighbourEvaluation:
+        """``design`` at its design pressure, from the nearest design that is solved here.
+
+        Where it cannot be reached, halves of the way are tried, and at last the ordinary
+        evaluation; the result says so.
+
+        Args:
+            design: What is evaluated.
+            progress: Listens to stages and load.
+            budget: Limits of an ordinary evaluation.
+
+        Raises:
+            BellowsError, MeshingError: As the ordinary evaluation.
+        """
+        began = time.perf_counter()
+        try:
+            self._require_near(design)
+            way = self._reached(design, self._nearest(design), MOST_HALVINGS)
+            found = self._judged(way)
+        except (BellowsError, SolverError) as reason:
+            return ordinary(design, self.anchor.model.name, str(reason), progress, budget)
+        anchor, *others = self._solved
+        self._solved = [anchor, *[*others, *way.solved][-MOST_STATES:]]
+        return replace(found, seconds=Seconds(solve=time.perf_counter() - began))
+
+    def equilibrium(self, found: NeighbourEvaluation) -> Equilibrium:
+        """What the sensitivities of one of its results are taken from."""
+        newton, solution = self._newton, found.solution
+        at_hand = newton is not None and newton.problem is solution.problem
+        return Equilibrium(
+            found.design,
+            self.anchor.model,
+            solution,
+            self._morpher,
+            self._carried,
+            newton if at_hand else None,
+        )
+
+    def distance(self, design: Design) -> float:
+        """How far a design is from that of the ordinary evaluation; infinite if no neighbour."""
+        return distance(self.anchor.design, design)
+
+    def _require_near(self, design: Design) -> None:
+        """Raise ``NotReached`` for a design that ends and errors cannot be carried to."""
+        here, there = self.anchor.design.bellows.bubble_count, design.bellows.bubble_count
+        if here != there:
+            raise NotReached(f"it has {there} bubbles instead of {here}")
+        apart = self.distance(design)
+        if apart > REACH:
+            raise NotReached(
+                f"it is too far away: by {100 * apart:.3g} % in its numbers, above the "
+                f"{100 * REACH:g} % up to which a neighbour's ends and errors hold"
+            )
+
+    def _nearest(self, design: Design) -> SolvedDesign:
+        return min(reversed(self._solved), key=lambda solved: distance(solved.design, design))
+
+    def _reached(self, design: Design, start: SolvedDesign, halvings: int) -> Way:
+        """The way to ``design``, by designs in between if it cannot be reached at once."""
+        try:
+            return Way((SolvedDesign(design, self._step(design, start)),))
+        except NotReached:
+            if halvings == 0:
+                raise
+        half = between(start.design, design, 0.5)
+        first = self._reached(half, start, halvings - 1)
+        return Way((*first.solved, *self._reached(design, first.end, halvings - 1).solved))
+
+    def _step(self, design: Design, start: SolvedDesign) -> Solution:
+        """The equilibrium of ``design`` from that of a neighbour. Raises ``NotReached``."""
+        from solver import neighbouring
+
+        mesh = self._morpher.mesh_of(design)
+        problem = self.anchor.model.problem(design, mesh)
+        found = neighbouring(problem, design.load.pressure, start.solution, self._newton)
+        self._newton = found.newton
+        if found.solution is None:
+            raise NotReached(found.failure)
+        return found.solution
+
+    def _judged(self, way: Way) -> NeighbourEvaluation:
+        """The record of a design that was reached. Raises ``NotReached`` if it does not hold."""
+        from solver import peak_von_mises
+
+        design, solution = way.end.design, way.end.solution
+        peak, apart = peak_von_mises(solution), self.distance(design)
+        cells = loaded_state(self._computation(design, SolvedMesh(solution, peak)))
+        if cells.contact.void:
+            raise NotReached(f"{' and '.join(cells.contact.where)} touch, which is not modelled")
+        solutions = [solved.solution for solved in way.solved]
+        return NeighbourEvaluation(
+            **vars(self._carried.applied(cells, peak, apart)),
+            design=design,
+            anchor=self.anchor,
+            distance=apart,
+            steps=len(solutions),
+            fallback="",
+            mesh=mesh_size(solution),
+            solver=effort(solutions),
+            seconds=Seconds(),
+            solution=solution,
+            neighbourhood=self,
+        )
+
+    def _computation(self, design: Design, solved: SolvedMesh) -> Computation:
+        """That of a design's cells on the moved mesh alone, without ends."""
+        former = self.anchor.computation
+        body = Body(design, former.model)
+        return replace(
+            former, design=design, body=body, solved=(solved,), ends=None, ends_peak=None
+        )
+
+
+def ordinary(
+    design: Design, model: str, reason: str, progress: Progress, budget: Budget
+) -> NeighbourEvaluation:
+    """The ordinary evaluation of a design that no neighbour leads to, and why it was needed."""
+    progress.stage(f"no neighbour: {reason}")
+    found = evaluate(design, model, progress=progress, budget=budget)
+    return NeighbourEvaluation(
+        **{field.name: getattr(found, field.name) for field in fields(LoadedState)},
+        design=design,
+        anchor=found,
+        distance=0.0,
+        steps=0,
+        fallback=reason,
+        mesh=found.mesh,
+        solver=found.solver,
+        seconds=found.seconds,
+        solution=found.computation.finest,
+    )

@@ -1,0 +1,42 @@
+"""Faces of tetrahedra: which lie on the boundary of the body."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from solver.arrays import Integers, Reals
+from solver.errors import SolverError
+
+FACES = ((0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2))
+"""Corners of a tetrahedron's faces, with outward normals."""
+
+
+def outer_faces(nodes: Reals, tets: Integers) -> NDArray[np.int64]:
+    """Keys (k,) of the faces of one tetrahedron (e, 10) only, with outward normals.
+
+    Raises ``SolverError`` if more than two tetrahedra share a face.
+    """
+    faces, size = np.concatenate([tets[:, face] for face in FACES]), len(nodes)
+    keys = face_keys(np.sort(faces, axis=1), size)
+    _, first, counts = np.unique(keys, return_index=True, return_counts=True)
+    if counts.max() > 2:
+        place = place_of(nodes, faces[first[counts.argmax()]])
+        raise SolverError(
+            f"mesh: {counts.max()} tetrahedra share a face at {place} mm; two can, the others are "
+            "given twice or overlap."
+        )
+    return face_keys(faces[first[counts == 1]], size)
+
+
+def face_keys(triangles: Integers, number_of_nodes: int) -> NDArray[np.int64]:
+    """One number for the corners of each triangle (k, 3 or more) in their cyclic order, (k,)."""
+    corners = triangles[:, :3].astype(np.int64)
+    turns = (np.arange(3) + corners.argmin(axis=1)[:, None]) % 3
+    a, b, c = np.take_along_axis(corners, turns, axis=1).T
+    return (a * number_of_nodes + b) * number_of_nodes + c
+
+
+def place_of(nodes: Reals, triangle: Integers) -> str:
+    """Centroid of a triangle's corners, as text."""
+    return f"({', '.join(f'{x:.4g}' for x in nodes[triangle[:3]].mean(axis=0))})"

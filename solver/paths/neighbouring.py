@@ -1,0 +1,107 @@
+"""From the equilibrium of one problem to that of a neighbouring one, at the whole load at once.
+
+The problems differ by little: in the positions of nodes, the material, the loads. The state of the
+first is a start for the second; a correction of it by the factorization of the first is the change
+of the equilibrium to first order. What the connectivity of the mesh decides, the ordering of the
+unknowns included, is kept from problem to problem.
+"""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+
+import numpy as np
+
+from solver.assembly.state import State
+from solver.errors import SolverError
+from solver.nonlinear.call_checks import check_call
+from solver.nonlinear.loading import Loading
+from solver.nonlinear.newton import Attempt, Newton, NoCorrection
+from solver.nonlinear.options import SolverOptions
+from solver.paths.outcome import Path, solution_of
+from solver.problem.problem import Problem
+from solver.results.solution import Solution, check_solution
+
+
+@dataclass(frozen=True)
+class Neighbouring:
+    """The equilibrium of a neighbouring problem, or why none was found.
+
+    Attributes:
+        solution: with the only point of its path at the whole load; None if there is ``failure``.
+        failure: why there is none, as text; empty if there is one.
+        newton: what the next neighbour takes over.
+    """
+
+    solution: Solution | None
+    failure: str
+    newton: Newton
+
+
+def neighbouring(
+    problem: Problem,
+    pressure: float,
+    near: Solution,
+    former: Newton | None = None,
+    options: SolverOptions | None = None,
+) -> Neighbouring:
+    """Equilibrium of ``problem`` under ``pressure`` (MPa), from that of a neighbouring problem.
+
+    Newton's method starts at the whole load from the state of ``near``, first corrected by the
+    factorization at hand. What it finds is stable, as far as the linear solver can tell, and all
+    its elements are admissible; whether it lies on the branch that the load leads to from zero is
+    not known.
+
+    Args:
+        problem: on a mesh with the same tetrahedra as that of ``near``; nodes, material and loads
+            may differ.
+        pressure: on the pressurised surfaces.
+        near: the equilibrium of the neighbouring problem.
+        former: what the solve before left, of no use after this one; by default all is set up anew.
+        options: tolerances and the linear solver.
+
+    Raises:
+        SolverError: invalid input, or a mesh with other tetrahedra.
+    """
+    check_call(problem, options, None, None)
+    check_solution(near)
+    _check_same_cells(problem, near.problem)
+    began = time.perf_counter()
+    loading = Loading.of(problem, float(pressure))
+    newton = Newton(problem, loading, options or SolverOptions(), former=former)
+    start = newton.kinematics.start(near.displacement, near.hydrostatic_pressure)
+    attempt = _found(newton, start)
+    if attempt.failure:
+        newton.system.forget()
+        return Neighbouring(None, attempt.failure, newton)
+    newton.effort.load_steps += 1
+    point = newton.point(attempt.state, 1.0, attempt.iterations, newton.system.stable)
+    path = Path(attempt.state, (point,))
+    return Neighbouring(solution_of(newton, path, time.perf_counter() - began), "", newton)
+
+
+def _found(newton: Newton, start: State) -> Attempt:
+    """The equilibrium at the whole load from ``start``, by way of its first-order change."""
+    tolerance = newton.options.tolerance
+    if newton.system.factorized:
+        try:
+            change = newton.correction(start, 1.0, True, 0)
+        except NoCorrection:
+            return newton.correct(start, 1.0, tolerance)
+        moved = newton.correct(change.moved, 1.0, tolerance, previous=newton.distance(change))
+        if not moved.failure:
+            return moved
+    return newton.correct(start, 1.0, tolerance)
+
+
+def _check_same_cells(problem: Problem, other: Problem) -> None:
+    """Raise ``SolverError`` unless two problems' meshes have the same connectivity."""
+    ours, theirs = problem.mesh.tets, other.mesh.tets
+    if ours is not theirs and not np.array_equal(ours, theirs):
+        raise SolverError("near: the mesh must have the same tetrahedra as that of the problem.")
+    if problem.moving_plane != other.moving_plane:
+        raise SolverError(
+            f"near: the moving plane is {problem.moving_plane!r}, that of the neighbour "
+            f"{other.moving_plane!r}; it must be the same."
+        )

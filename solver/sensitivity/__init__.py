@@ -1,0 +1,1 @@
+"""Exact derivatives of an equilibrium's responses, by the adjoint method."""

@@ -1,0 +1,143 @@
+"""A smooth maximum of the recovered nodal von Mises stress, and its derivatives.
+
+The maximum itself jumps from node to node and has no derivative there. The p-norm over the nodes
+that count,
+
+    (sum v_a^p)^(1/p),
+
+has: it is homogeneous in the stress, never below the peak, and above it by at most the factor
+N^(1/p) of N nodes with one value; by how much is stated with the value. Derivatives go to the
+elements at nodes with a weight in them only.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from solver.arrays import Integers, Reals
+from solver.assembly.assembly import solid
+from solver.kernels.element import Solid
+from solver.kernels.shape_derivatives import stress_derivatives
+from solver.problem.problem import Problem
+from solver.results.stress import (
+    averaged,
+    deviatoric_at_nodes,
+    extrapolation,
+    in_elements,
+    von_mises,
+)
+from solver.sensitivity.surface_integrals import summed
+
+LEAST_WEIGHT = 1e-12
+"""Derivative of the smooth peak by a node's stress below which the node is left out."""
+
+SHARPNESS = 64.0
+"""Default of p."""
+
+
+@dataclass(frozen=True)
+class SmoothPeak:
+    """A smooth maximum of the nodal von Mises stress.
+
+    Attributes:
+        value: (sum v^p)^(1/p), MPa.
+        sharpness: p.
+        peak: the largest nodal value itself, MPa, over the same nodes.
+        nodes: how many nodes have a part in it.
+    """
+
+    value: float
+    sharpness: float
+    peak: float
+    nodes: int
+
+    @property
+    def ratio(self) -> float:
+        """Value over peak, at least 1; 1 where there is no stress."""
+        return self.value / self.peak if self.peak else 1.0
+
+
+@dataclass(frozen=True)
+class PeakRegion:
+    """What a smooth peak depends on: nodes (k,), and the elements around them as a ``body``."""
+
+    nodes: Integers
+    body: Solid
+    sharpness: float
+
+    @staticmethod
+    def of(
+        problem: Problem, displacement: Reals, counted: NDArray[np.bool_], sharpness: float
+    ) -> PeakRegion:
+        """The region of the nodes with a weight among those ``counted`` (n,)."""
+        values = von_mises(deviatoric_at_nodes(problem, displacement))
+        values = np.where(counted, values, 0.0)
+        _, weights = _norm(values, sharpness)
+        active = weights > LEAST_WEIGHT
+        whole = solid(problem)
+        around = active[whole.tets].any(axis=1)
+        body = whole._replace(tets=whole.tets[around], tet_vertices=whole.tet_vertices[around])
+        return PeakRegion(np.flatnonzero(active).astype(np.int32), body, sharpness)
+
+    def value(self, body: Solid, displacement: Reals) -> float:
+        """The smooth peak, MPa, with another material or other positions in ``body``."""
+        return _norm(von_mises(self._stress(body, displacement)[0]), self.sharpness)[0]
+
+    def change(self, ahead: Solid, behind: Solid, displacement: Reals) -> float:
+        """First-order change of the smooth peak between two materials, MPa."""
+        here, there, back = (
+            self._stress(body, displacement)[0] for body in (self.body, ahead, behind)
+        )
+        return float((self._weights(here) * (there - back)).sum())
+
+    def peak(self, displacement: Reals) -> SmoothPeak:
+        """Value and peak."""
+        values = von_mises(self._stress(self.body, displacement)[0])
+        value, _ = _norm(values, self.sharpness)
+        return SmoothPeak(value, self.sharpness, float(values.max(initial=0.0)), len(self.nodes))
+
+    def derivatives(self, displacement: Reals) -> tuple[Reals, Reals]:
+        """Derivatives (n, 3) of the smooth peak by positions and by displacements, MPa/mm."""
+        tets, size = self.body.tets, len(displacement)
+        stress, raw, volumes = self._stress(self.body, displacement)
+        shares = np.zeros((size, 6))
+        shares[self.nodes] = self._weights(stress)
+        total = np.bincount(tets.ravel(), np.repeat(volumes, 10), size)
+        shares /= np.where(total > 0, total, 1.0)[:, None]
+        average = np.zeros((size, 6))
+        average[self.nodes] = stress
+        by_volume = ((raw - average[tets]) * shares[tets]).sum(axis=(1, 2))
+        by_raw = volumes[:, None, None] * shares[tets]
+        by_stress = extrapolation().T @ by_raw
+        parts = np.empty((2, *tets.shape, 3))
+        stress_derivatives(
+            self.body, np.ascontiguousarray(displacement), by_stress, by_volume, *parts
+        )
+        return summed(size, tets, parts[0]), summed(size, tets, parts[1])
+
+    def _stress(self, body: Solid, displacement: Reals) -> tuple[Reals, Reals, Reals]:
+        """Stress at the nodes (k, 6) and in the elements (e, 10, 6), and their volumes (e,)."""
+        raw, volumes = in_elements(body, displacement)
+        return averaged(body.tets, raw, volumes, len(displacement))[self.nodes], raw, volumes
+
+    def _weights(self, stress: Reals) -> Reals:
+        """Derivatives (k, 6) of the smooth peak by the stress at the nodes (k, 6)."""
+        values = von_mises(stress)
+        _, weights = _norm(values, self.sharpness)
+        factors = np.repeat([1.5, 3.0], 3)
+        slopes: Reals = factors * stress * (weights / np.where(values > 0, values, 1.0))[:, None]
+        slopes[:, :3] -= slopes[:, :3].mean(axis=1, keepdims=True)
+        return slopes
+
+
+def _norm(values: Reals, power: float) -> tuple[float, Reals]:
+    """(sum v^p)^(1/p) of values v (k,) of at least 0, and its derivatives (k,)."""
+    largest = float(values.max(initial=0.0))
+    if largest == 0.0:
+        return 0.0, np.zeros_like(values)
+    shares = values / largest
+    total = float((shares**power).sum())
+    return largest * total ** (1 / power), total ** (1 / power - 1) * shares ** (power - 1)
