@@ -24,7 +24,8 @@ LIBRARIES = ("embreex", "llvmlite", "pydantic", "rtree")
 SETTINGS = ("KMP_", "MKL_", "NUMBA_", "OMP_", "OPENBLAS_", "RAYON_")
 """Beginnings of environment variables by which the libraries choose threads and instructions."""
 
-NOT_DECISIVE = ("NUMBA_CACHE_DIR",)
+NOT_DECISIVE = ("NUMBA_CACHE_DIR", "OMP_WAIT_POLICY")
+"""Where files are, and how threads wait; the solver itself sets the latter."""
 
 
 def surroundings() -> dict[str, Any]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from dataclasses import replace
 from pathlib import Path
 
@@ -12,6 +14,7 @@ from bellows_design.budget import DEFAULT
 from bellows_design.store.key import digest
 from bellows_design.store.surroundings import settings, sources_hash, surroundings
 
+ROOT = Path(__file__).parents[3]
 USUAL = key(small())
 
 
@@ -55,6 +58,16 @@ def test_a_changed_module_of_ours_is_noticed(tmp_path: Path) -> None:
     assert changed != before
     (tmp_path / "solver/kernels/b.py").rename(tmp_path / "solver/kernels/d.py")
     assert sources_hash(tmp_path) not in (before, changed)
+
+
+def test_the_key_is_the_same_before_and_after_an_evaluation() -> None:
+    """Nothing that the solver or its libraries set when they are loaded has a part in it."""
+    script = (
+        "from bellows_design.store.surroundings import surroundings; before = surroundings();"
+        "import bellows_design.evaluation, bellows_design.pipeline, solver.kernels.assembly;"
+        "from solver import solve, peak_von_mises; assert surroundings() == before"
+    )
+    subprocess.run([sys.executable, "-c", script], check=True, cwd=ROOT)
 
 
 def test_settings_of_libraries_count_but_not_where_their_files_are() -> None:
