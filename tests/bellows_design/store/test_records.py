@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import subprocess
+import sys
 from dataclasses import fields
 from pathlib import Path
 from typing import Any
@@ -114,6 +116,15 @@ def test_the_solid_is_built_only_for_a_finer_mesh(store: Store, evaluation: Eval
     body = restored(store, evaluation).computation.body
     assert "solid" not in vars(body)
     assert body.solid.solid.Volume() == evaluation.computation.body.solid.solid.Volume()
+
+
+def test_what_restores_an_evaluation_waits_for_no_cad() -> None:
+    script = (
+        "import sys, bellows_design.store.records, bellows_design.store.lookup;"
+        "import bellows_design.analysis.evaluate, bellows_design.reports.evaluation;"
+        "assert 'cadquery' not in sys.modules"
+    )
+    subprocess.run([sys.executable, "-c", script], check=True, cwd=Path(__file__).parents[3])
 
 
 def test_a_record_bears_the_labels_of_the_design_that_asks(
