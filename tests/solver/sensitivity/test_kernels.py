@@ -78,6 +78,17 @@ def test_work_derivatives_are_second_derivatives_of_the_energy(body: Solid) -> N
     assert second == pytest.approx(2 * first, rel=1e-12)
 
 
+def test_work_derivatives_have_the_same_bits_every_time(body: Solid) -> None:
+    """Whatever the memory that the kernel takes held before."""
+    u, (w, q, m) = displaced(), draws(NODAL, *2 * [(len(MESH.vertices),)])
+    first, again = np.empty((2, 2, 1, *MESH.tets.shape, 3))
+    work_derivatives(body, u, q, w[None], m[None], *first)
+    assert np.isfinite(first).all()
+    for _ in range(300):
+        work_derivatives(body, u, q, w[None], m[None], *again)
+        assert np.array_equal(first, again)
+
+
 def test_stress_derivatives_are_those_of_the_stress(body: Solid) -> None:
     u, count = displaced(), len(MESH.tets)
     velocity, weights, by_volume = draws(NODAL, (count, 4, 6), (count,))
