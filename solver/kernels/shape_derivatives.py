@@ -47,6 +47,16 @@ def as_matrix(s: Reals, m: Reals) -> None:
         m[j, i] = s[3 + i]
 
 
+@compiled()
+def to_axes_of_space(vectors: Reals, principal: Reals, m: Reals) -> None:
+    """m (3, 3) with the eigenvalues ``principal`` (3,) and the eigenvectors in columns."""
+    for i in range(3):
+        for j in range(3):
+            m[i, j] = 0.0
+            for k in range(3):
+                m[i, j] += principal[k] * vectors[i, k] * vectors[j, k]
+
+
 @compiled(parallel=True)
 def work_derivatives(
     solid: Solid,
@@ -70,7 +80,7 @@ def work_derivatives(
         tau, rate = np.empty((3, 3)), np.empty((3, 3))
         change_w, velocity = np.empty((3, 3)), np.empty((3, 3))
         logs, stress, shear = np.empty(3), np.empty(3), np.empty(3)
-        normal, voigt, none = np.empty((3, 3)), np.empty(6), np.zeros(3)
+        normal = np.empty((3, 3))
         for a in range(10):
             node = solid.tets[element, a]
             for i in range(3):
@@ -93,8 +103,7 @@ def work_derivatives(
             principal_response(
                 solid.law, logs, b, -q * (1.0 + change), solid.constants, stress, normal, shear,
             )  # fmt: skip
-            pulled_back(vectors, stress, none, turned, voigt)
-            as_matrix(voigt, tau)
+            to_axes_of_space(vectors, stress, tau)
             swelling, _ = volume_law(q, solid.compliance, solid.logarithmic)
             for r in range(directions.shape[0]):
                 m = 0.0
@@ -189,7 +198,7 @@ def stress_derivatives(
             np.empty((3, 3)), np.empty((3, 3)), np.empty((3, 3)), np.empty((3, 3)),
         )  # fmt: skip
         logs, stress, shear = np.empty(3), np.empty(3), np.empty(3)
-        normal, voigt, none = np.empty((3, 3)), np.empty(6), np.zeros(3)
+        normal, voigt = np.empty((3, 3)), np.empty(6)
         for a in range(10):
             node = solid.tets[element, a]
             for i in range(3):
@@ -212,8 +221,7 @@ def stress_derivatives(
             as_matrix(voigt, given)
             along_axes(given, vectors, turned)
             _stress_rate(turned, vectors, normal, shear, 0.0, whole)
-            pulled_back(vectors, stress, none, turned, voigt)
-            as_matrix(voigt, tau)
+            to_axes_of_space(vectors, stress, tau)
             product(given, tau, mixed)
             total = (mixed[0, 0] + mixed[1, 1] + mixed[2, 2]) / jacobian
             for i in range(3):

@@ -102,6 +102,8 @@ class TangentSystem:
         assembly = Assembly(problem) if workspace is None else workspace.assembly
         at = Equilibrated(assembly, solution.state, solution.pressure, solution.load)
         equilibrium = assembly.evaluate(at.state, at.pressure, load=at.load)
+        if not equilibrium.admissible:
+            raise SolverError("sensitivities: an element of the state is turned inside out.")
         if workspace is not None:
             return TangentSystem(at, workspace.system, equilibrium)
         return TangentSystem(at, LinearSystem(assembly, "auto"), equilibrium)

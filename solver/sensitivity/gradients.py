@@ -153,7 +153,7 @@ def gradients(
     problem, displacement = solution.problem, solution.displacement
     names = _checked_names(problem, responses)
     system = TangentSystem.of(solution, workspace)
-    mask = trusted_nodes(problem) if counted is None else counted
+    mask = trusted_nodes(problem) if counted is None else _checked_mask(problem, counted)
     region = PeakRegion.of(problem, displacement, mask, sharpness)
     return Gradients(
         solution=solution,
@@ -267,6 +267,16 @@ def _checked_names(problem: Problem, responses: Sequence[str]) -> tuple[str, ...
                 f"sensitivities: the problem has no response {name!r}; it has {', '.join(there)}."
             )
     return tuple(dict.fromkeys(asked)) or there
+
+
+def _checked_mask(problem: Problem, counted: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    given, size = np.asarray(counted), len(problem.mesh.nodes)
+    if given.shape != (size,) or given.dtype.kind != "b":
+        raise SolverError(
+            f"sensitivities: counted must be a truth value for each of the {size} nodes, got "
+            f"{given.dtype} of the shape {given.shape}."
+        )
+    return given
 
 
 def _check_velocity(problem: Problem, velocity: Reals) -> None:

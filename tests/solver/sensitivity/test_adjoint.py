@@ -68,6 +68,7 @@ def test_a_factorization_of_an_earlier_state_gives_the_same_derivatives(
     """By refinement against the tangent of the state itself; a far one is replaced."""
     velocity = bent.problem.mesh.nodes * [0, 0, 1]
     fresh = sensitivities(bent, {"height": velocity})
+    assert fresh.factorizations == 1 and not fresh.warnings
     before = solve(bent.problem, share * 0.1, TIGHT)
     hand = AtHand.of(bent.problem, before.state, share * 0.1)
     found = sensitivities(bent, {"height": velocity}, workspace=hand)
@@ -160,6 +161,8 @@ def test_what_is_asked_for_must_be_there(bent: Solution) -> None:
         gradients(bent, responses=("angle",))
     with pytest.raises(SolverError, match=r"sharpness = 1 must be above 1"):
         gradients(bent, sharpness=1.0)
+    with pytest.raises(SolverError, match=r"counted must be a truth value for each of the \d+ nod"):
+        gradients(bent, counted=np.ones(3, bool))
     with pytest.raises(SolverError, match="'pressure' stands there twice"):
         sensitivities(bent, {"pressure": bent.displacement})
 

@@ -7,6 +7,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 from meshes import box_mesh
+from numba import njit, prange
 from numpy.typing import NDArray
 
 from solver import Ogden, Problem, Supports
@@ -76,6 +77,36 @@ def test_work_derivatives_are_second_derivatives_of_the_energy(body: Solid) -> N
     first, second = np.swapaxes((parts * velocity[MESH.tets]).sum(axis=(2, 3, 4)), 0, 1)
     assert first == pytest.approx([by_place, by_displacement], rel=1e-7)
     assert second == pytest.approx(2 * first, rel=1e-12)
+
+
+def matrices() -> tuple[Array, Array, Array, Array]:
+    nan = np.nan
+    return np.full((3, 3), nan), np.full((3, 3), nan), np.full((3, 3), nan), np.full((3, 3), nan)
+
+
+_matrices: Callable[[], tuple[Array, Array, Array, Array]] = njit(matrices)
+
+
+@njit(parallel=True)
+def soil(rounds: int) -> float:
+    """Leave numbers that are none in the memory that small matrices are made of."""
+    total = 0.0
+    for _ in prange(rounds):
+        held = (_matrices(), _matrices(), _matrices(), _matrices(), _matrices())
+        total += held[4][3][2, 2]
+    return total
+
+
+def test_work_derivatives_have_the_same_bits_every_time(body: Solid) -> None:
+    """Whatever the memory that the kernel takes held before."""
+    u, (w, q, m) = displaced(), draws(NODAL, *2 * [(len(MESH.vertices),)])
+    first, again = np.empty((2, 2, 1, *MESH.tets.shape, 3))
+    work_derivatives(body, u, q, w[None], m[None], *first)
+    assert np.isfinite(first).all()
+    for _ in range(30):
+        soil(64)
+        work_derivatives(body, u, q, w[None], m[None], *again)
+        assert np.array_equal(first, again)
 
 
 def test_stress_derivatives_are_those_of_the_stress(body: Solid) -> None:
