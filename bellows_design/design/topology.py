@@ -63,8 +63,16 @@ def _sign(length: float) -> int:
 
 
 def _differs(name: str, before: Mapping[str, float], after: Mapping[str, float]) -> bool:
+    if name not in after:  # a length that is told by the sign of another one
+        return False
     sign = _sign(before[name])
-    return name not in after or (sign != _sign(after[name]) and not (sign == 0 and name in LEVEL))
+    return sign != _sign(after[name]) and not (sign == 0 and name in _may_leave_zero(before))
+
+
+def _may_leave_zero(lengths: Mapping[str, float]) -> tuple[str, ...]:
+    """Steps between level floors are followed where fillets smooth them and no indent cuts them."""
+    rounded = all(_sign(lengths[name]) > 0 for name in (CHAMBER_FILLET, CHANNEL_FILLET))
+    return LEVEL if rounded and INNER_DEPTH not in lengths else ()
 
 
 def _change(name: str, before: Mapping[str, float], after: Mapping[str, float]) -> str:
@@ -110,6 +118,27 @@ def _inside(p: BellowsParameters) -> Iterator[tuple[str, float]]:
     yield "the channel's side inside of the chamber's", beside
     yield "the channel's side inside of the chamber's fillet", beside - r
     yield "the channel's fillet inside of the chamber's", beside - r + q
+    yield from _channel_in_corners(r, q, beside, wall - floor, below_roof)
+
+
+def _channel_in_corners(
+    r: float, q: float, beside: float, step: float, below_roof: float
+) -> Iterator[tuple[str, float]]:
+    """The channel's edges beside the chamber's ones, where both are rounded, in the y-z plane.
+
+    ``r`` and ``q`` are the fillets of chamber and channel, ``beside`` the channel's side inside of
+    the chamber's, ``step`` its floor above the chamber's, ``below_roof`` its roof below the
+    start of the chamber's upper fillet, mm.
+    """
+    across = r - q - beside  # from the middle of the chamber's fillet to that of the channel's
+    lower, upper = r - q - step, -q - below_roof
+    if step > NOTHING and across > 0 and lower > 0:
+        yield "the channel's lower edge inside of the chamber's", r - q - math.hypot(across, lower)
+    if across > 0 and upper > 0:
+        yield "the channel's upper edge inside of the chamber's", r - q - math.hypot(across, upper)
+    if step < -NOTHING:
+        up = min(max(q + step, 0.0), q)
+        yield "flat of the chamber's floor beside the channel", -across - math.sqrt(q**2 - up**2)
 
 
 def _ends(p: BellowsParameters) -> Iterator[tuple[str, float]]:

@@ -18,9 +18,9 @@ times better; features are a thousand times larger."""
 PARALLEL = 1e-6
 """Two surfaces whose normals differ by less (one minus the cosine) touch instead of crossing."""
 
-SHALLOW = 0.4
-"""The same cosine where the floors of channel and chamber are level. The curve in which their
-fillets cross ends there in a point where they touch, and leaps from it as soon as one is higher."""
+SHALLOW = 0.6
+"""The same where level floors part. The curve in which the fillets of channel and chamber cross
+ends in a point where they touch, and leaps from it as soon as one floor is higher."""
 
 ALTERNATIVES, SLOTS = 2, 3
 
@@ -99,11 +99,11 @@ def in_cuts(points: Reals) -> NDArray[np.bool_]:
     return np.abs(points) < TOLERANCE
 
 
-def classified(boxes: Boxes, points: Reals) -> Places:
-    """The surfaces that points (k, 3) lie on."""
+def classified(boxes: Boxes, points: Reals, parallel: float = PARALLEL) -> Places:
+    """The surfaces that points (k, 3) lie on; those count as one that are so ``parallel``."""
     on = on_surfaces(boxes, points)
     pins = _pins(boxes, points, on)
-    curved = _curved(boxes, points, on, pins < 0)
+    curved = _curved(boxes, points, on, pins < 0, parallel)
     level = np.minimum((pins >= 0).sum(axis=1) + (curved[:, :, 0] >= 0).sum(axis=1), 3)
     _add_other_hollows(boxes, points, curved)
     return Places(pins, on & (boxes.radius > 0), curved, level)
@@ -121,7 +121,9 @@ def _pins(boxes: Boxes, points: Reals, on: NDArray[np.bool_]) -> Indices:
     return pins
 
 
-def _curved(boxes: Boxes, points: Reals, on: NDArray[np.bool_], free: NDArray[np.bool_]) -> Indices:
+def _curved(
+    boxes: Boxes, points: Reals, on: NDArray[np.bool_], free: NDArray[np.bool_], parallel: float
+) -> Indices:
     """The rounded boxes of points, those that touch each other side by side, (k, 3, 2)."""
     curved = np.full((len(points), SLOTS, ALTERNATIVES), -1)
     normals = np.zeros((len(points), SLOTS, 3))
@@ -134,7 +136,7 @@ def _curved(boxes: Boxes, points: Reals, on: NDArray[np.bool_], free: NDArray[np
         bends = size > 1e-3  # otherwise the pins hold it on this surface
         rows, slopes = rows[bends], slopes[bends] / size[bends, None]
         cosines = np.abs(np.einsum("ksi,ki->ks", normals[rows], slopes))
-        touching = cosines > (SHALLOW if boxes.level_floors else 1 - PARALLEL)
+        touching = cosines > 1 - parallel
         twice = touching.any(axis=1)
         slot = touching.argmax(axis=1)
         curved[rows[twice], slot[twice], 1] = box

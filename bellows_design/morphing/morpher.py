@@ -12,6 +12,7 @@ from bellows_design.design.topology import same_topology
 from bellows_design.design.variation import between, counted, geometric_parameters, varied
 from bellows_design.errors import BellowsError, DesignError
 from bellows_design.geometry.channel_ends import CHANNEL_ENDS
+from bellows_design.morphing.classification import SHALLOW
 from bellows_design.morphing.errors import ForeignMesh, MorphFailed, NoNeighbour
 from bellows_design.morphing.interior import Interior
 from bellows_design.morphing.prediction import predicted
@@ -43,6 +44,8 @@ class Morpher:
         channel_end: Where the channel ends in the last chamber; see ``geometry.actuator``.
         boxes: What bounds the body.
         skin: The surface's nodes.
+        stepped: The same with shallow crossings of channel and chambers left to follow the faces
+            beside them, for designs whose floors part from being level.
         elements: The tetrahedra, and whether they fold.
         interior: How the other nodes follow them.
     """
@@ -53,6 +56,7 @@ class Morpher:
     channel_end: float
     boxes: Boxes
     skin: Skin
+    stepped: Skin
     elements: Elements
     interior: Interior
 
@@ -70,9 +74,10 @@ class Morpher:
             except ForeignMesh as error:
                 reason = error
                 continue
+            stepped = Skin.of(boxes, mesh, SHALLOW) if boxes.level_floors else skin
             elements = Elements.of(mesh)
             interior = Interior.of(mesh, elements, skin.nodes)
-            return cls(design, model, mesh, end, boxes, skin, elements, interior)
+            return cls(design, model, mesh, end, boxes, skin, stepped, elements, interior)
         raise reason
 
     def mesh_of(self, other: Design) -> Mesh:
@@ -110,7 +115,8 @@ class Morpher:
         if difference:
             raise NoNeighbour(difference)
         boxes = boxes_of(other, self.model, self.channel_end)
-        points, missed = self.skin.moved(boxes, predicted(self.boxes, boxes, self.skin.own))
+        skin = self.skin if boxes.level_floors else self.stepped
+        points, missed = skin.moved(boxes, predicted(self.boxes, boxes, skin.own))
         if missed > MISSED:
             raise NoNeighbour(f"a node of the mesh misses the body's surfaces by {missed:.2g} mm")
         return points

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.sparse import csr_matrix
 from scipy.sparse.csgraph import connected_components
 
-from bellows_design.morphing.classification import Places, classified
+from bellows_design.morphing.classification import PARALLEL, Places, classified
 from bellows_design.morphing.errors import ForeignMesh
 from bellows_design.morphing.extension import (
     Extension,
@@ -49,16 +49,18 @@ class Skin:
     over_faces: Extension
 
     @classmethod
-    def of(cls, boxes: Boxes, mesh: Mesh) -> Skin:
+    def of(cls, boxes: Boxes, mesh: Mesh, parallel: float = PARALLEL) -> Skin:
         """The surface of a mesh of the body that the boxes bound.
 
-        Raises :class:`ForeignMesh` if one of its nodes lies on none of them.
+        Surfaces that are so ``parallel`` count as one where they meet. Raises
+        :class:`ForeignMesh` if a node lies on none of them.
         """
         triangles = mesh.triangles(*mesh.surfaces)
         nodes, local = np.unique(triangles, return_inverse=True)
         local = local.reshape(triangles.shape)
         given, ends = mesh.nodes[nodes], _ends(local, len(nodes))
-        points, share, places = _unrelaxed(boxes, given, ends)
+        points, share = _unrelaxed(boxes, given, ends)
+        places = classified(boxes, points, parallel)
         _check_all_found(places, points)
         own, _ = projected(boxes, places, np.arange(len(nodes)), points)
         places, along, over = _followers(boxes, places, own, local[:, :3])
@@ -107,8 +109,8 @@ def _ends(triangles: Indices, count: int) -> Indices:
     return ends
 
 
-def _unrelaxed(boxes: Boxes, given: Reals, ends: Indices) -> tuple[Reals, Reals, Places]:
-    """Points where they would lie without unfolding, their shares, and their places.
+def _unrelaxed(boxes: Boxes, given: Reals, ends: Indices) -> tuple[Reals, Reals]:
+    """Points where they would lie without unfolding, and their shares.
 
     Unfolding halves a mid-node's distance from the straight edge again and again, so doubling it
     brings the node back to its surfaces: to as many of those of its edge's ends as possible.
@@ -116,7 +118,8 @@ def _unrelaxed(boxes: Boxes, given: Reals, ends: Indices) -> tuple[Reals, Reals,
     straight = given[ends].mean(axis=1)
     places = classified(boxes, given)
     conditions = places.conditions(boxes)
-    common = conditions[ends[:, 0]] & conditions[ends[:, 1]]
+    one, two = conditions[ends[:, 0]], conditions[ends[:, 1]]
+    common = np.where((one & two).any(axis=1, keepdims=True), one & two, one | two)
     points, share = given.copy(), np.ones(len(given))
     best = (conditions & common).sum(axis=1)
     bent = np.linalg.norm(given - straight, axis=1) > 1e-9
@@ -127,7 +130,7 @@ def _unrelaxed(boxes: Boxes, given: Reals, ends: Indices) -> tuple[Reals, Reals,
         better = found > best[rows]
         points[rows[better]], share[rows[better]] = tried[better], 0.5**halvings
         best[rows] = np.maximum(best[rows], found)
-    return points, share, classified(boxes, points)
+    return points, share
 
 
 def _check_all_found(places: Places, points: Reals) -> None:
