@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from io import BytesIO
 
 import cadquery as cq
@@ -90,8 +90,9 @@ def finer_plan(
     return PlannedMesh(solid, options)
 
 
+@lru_cache(maxsize=4)
 def body_size(solid: NamedSolid) -> BodySize:
-    """What the number of elements depends on."""
+    """What the number of elements depends on; kept for the next mesh of the same body."""
     box = solid.solid.BoundingBox()
     faces = tuple(
         FaceSize(face.Area(), tuple(edge.Length() for edge in face.Edges()), _radius(face))

@@ -39,13 +39,16 @@ def relaxed(nodes: Reals, tets: Integers) -> Reals:
     straight = nodes.copy()
     straight[middles] = nodes[ends].mean(axis=2)
     share = np.ones(len(nodes))
-    moved = nodes
+    moved, bad = nodes, jacobian_ratios(nodes, tets) < SMALLEST_RATIO
     for _ in range(SWEEPS):
-        bad = jacobian_ratios(moved, tets) < SMALLEST_RATIO
         if not bad.any():
             break
-        share[np.unique(middles[bad])] *= 0.5
+        changed = np.zeros(len(nodes), bool)
+        changed[middles[bad]] = True
+        share[changed] *= 0.5
         moved = straight + share[:, None] * (nodes - straight)
+        around = changed[middles].any(axis=1)  # no other element has another shape than before
+        bad[around] = jacobian_ratios(moved, tets[around]) < SMALLEST_RATIO
     return moved
 
 

@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 from bellows_design.analysis import mesh_sequence
 from bellows_design.analysis.cell_chain import chain
-from bellows_design.analysis.computation import Computation
 from bellows_design.analysis.evaluate import evaluate, loaded_state
 from bellows_design.analysis.mesh_plan import first_plan
 from bellows_design.analysis.mesh_sequence import started
@@ -25,6 +24,8 @@ from bellows_design.analysis.wall_contact import (
     OVERLAP,
     UNMODELLED,
     WallContact,
+    _outer_gaps,
+    _overlaps_itself,
     contact_in_cell,
     contact_of,
 )
@@ -39,6 +40,7 @@ BELLOWS = BellowsParameters.model_validate(
     {**load_design("prototype_1").bellows.model_dump(), "length": 26, "number_of_bubbles": 3}
 )
 GAP = BELLOWS.bubble_distance
+LONG = load_design("prototype_1")
 
 
 @pytest.fixture(scope="module")
@@ -108,6 +110,41 @@ def test_past_a_full_turn_distant_parts_overlap_and_neighbours_do_not(problem: P
     found = contact(problem, rolled(problem, 1.2))
     assert found.overlaps_itself
     assert not found.detected
+
+
+@pytest.fixture(scope="module")
+def straight_cell() -> Solution:
+    problem = UNIT_CELL.problem(LONG, first_plan(UNIT_CELL.solid(LONG), LONG).made())
+    return solve(problem)
+
+
+def bent(cell: Solution, turns: float) -> Solution:
+    """A cell bent to an arc about y, bubbles outside, of which the chain makes so many turns."""
+    tilt, end = np.pi * turns / LONG.bellows.bubble_count, LONG.bellows.pitch / 2
+    x, y, z = cell.problem.mesh.nodes.T
+    radius = end / tilt
+    moved = np.column_stack(
+        [
+            (radius + z) * np.sin(x / radius),
+            y,
+            (radius + z) * np.cos(x / radius) - radius,
+        ]
+    )
+    plane = (tilt, radius * np.tan(tilt) - end)
+    return replace(cell, displacement=moved - cell.problem.mesh.nodes, plane=plane)
+
+
+@pytest.mark.parametrize("turns", [-0.3, 0.3, 0.7])
+def test_a_chain_that_makes_no_full_turn_is_not_searched_for_overlaps_and_has_none(
+    straight_cell: Solution, turns: float
+) -> None:
+    cell = bent(straight_cell, turns)
+    assert not _overlaps_itself(LONG.bellows, cell)
+    assert not _outer_gaps(LONG.bellows, *chain(LONG.bellows, cell)).overlap
+
+
+def test_a_chain_of_more_than_a_full_turn_overlaps(straight_cell: Solution) -> None:
+    assert _overlaps_itself(LONG.bellows, bent(straight_cell, 1.2))
 
 
 def test_walls_that_touch_in_a_half_model_are_told_not_modelled(problem: Problem) -> None:
@@ -306,15 +343,13 @@ def test_the_ends_of_a_cell_whose_inner_walls_touch_only_there_are_half_bubbles(
     design = with_overrides(load_design("prototype_1"), ["number_of_bubbles=4", "length=40"])
     plain = started(design, UNIT_CELL, "")
     assert plain.ends is not None and plain.ends.problem.moving_plane is None
-    usual = mesh_sequence._with_short_actuator
+    usual = mesh_sequence._short_actuator
 
-    def touching(*given: Any) -> Computation:
+    def touching(*given: Any) -> mesh_sequence.Ends:
         found = usual(*given)
-        assert found.ends is not None
-        ends = replace(found.ends, converged=False, stopped_by="guard")
-        return replace(found, ends=ends)
+        return replace(found, solution=replace(found.solution, converged=False, stopped_by="guard"))
 
-    monkeypatch.setattr(mesh_sequence, "_with_short_actuator", touching)
+    monkeypatch.setattr(mesh_sequence, "_short_actuator", touching)
     monkeypatch.setattr(mesh_sequence, "_stopped_inside", lambda _: True)
     freed = started(design, UNIT_CELL, "")
     assert freed.converged and freed.ends is not None
