@@ -167,22 +167,19 @@ def test_vtu_holds_the_finest_solution(evaluation: Evaluation, tmp_path) -> None
 
 
 @pytest.mark.slow
-@pytest.mark.slow
-@pytest.mark.parametrize("pressure", ["load.pressure=0.1", "load.pressure=0.5"])
-def test_ends_beside_the_cell_are_those_after_it(
-    pressure: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Also where the load is not reached, so that finer meshes of the cell do not count."""
-    design = with_overrides(load_design("prototype_1"), [pressure])
-    beside = evaluate(design)
+def test_ends_beside_the_cell_are_those_after_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    design = load_design("prototype_1")
+    ample = Budget(seconds=3600.0)  # what ends by the clock depends on the machine
+    beside = evaluate(design, budget=ample)
     monkeypatch.setattr("solver.linear.threads.may_run_side_by_side", lambda: False)
-    after = evaluate(design)
+    after = evaluate(design, budget=ample)
     assert replace(beside, seconds=after.seconds, computation=after.computation) == after
     assert np.array_equal(
         beside.computation.finest.displacement, after.computation.finest.displacement
     )
 
 
+@pytest.mark.slow
 def test_accuracy_refines_until_the_estimate_keeps_it_or_the_memory_is_used_up() -> None:
     slim = ("bubble_width=12", "bubble_height=10", "tendon_width=8", "load.pressure=0.01")
     single = short("number_of_bubbles=1", "length=11.5", *slim)
