@@ -15,28 +15,30 @@ from typing import TYPE_CHECKING, Any
 from bellows_design.analysis.evaluation import Evaluation
 from bellows_design.analysis.models import UNIT_CELL
 from bellows_design.design.design import Design
-from bellows_design.design.variation import geometric_parameters, led_along, parameters, varied
+from bellows_design.design.variation import (
+    geometric_parameters,
+    kinked,
+    led_along,
+    parameters,
+    varied,
+)
 from bellows_design.errors import DesignError
 from bellows_design.neighbours.carried import Carried
 from bellows_design.neighbours.equilibrium import Equilibrium
 from bellows_design.neighbours.jumps import CountChange, count_changes
 from bellows_design.neighbours.record import NeighbourEvaluation
-from solver.arrays import Reals
 
 if TYPE_CHECKING:
-    from solver.sensitivity.gradients import Gradients
-
     from solver.material.law import Hyperelastic
+    from solver.sensitivity.gradients import Gradients
 
 ANGLE, VOLUME, STRESS = "bending_angle_deg", "cavity_volume_mm3", "max_von_mises_mpa"
 RESPONSES = {ANGLE: "rotation", VOLUME: "volume", STRESS: "peak_stress"}
 """Names of the responses here and in the solver."""
 
-STEP = 1e-5
-"""mm. Half of the difference in a length that the motion of the surface is taken from."""
-
 MATERIAL_STEP = 1e-4
-"""The same of a constant of the material, relative to it, or to one where it is less."""
+"""Half of the difference in a constant of the material, relative to it, or to one where it is less.
+"""
 
 ENDS_BOUND = 0.06
 """Elasticity of the angle of a unit cell, at most, that the ends are left out of: by 5 % of one
@@ -68,6 +70,7 @@ class Sensitivities:
             stress (MPa).
         parameters: The derivatives, geometry first.
         led_along: Fillets that are full rounds and so no parameters, and what leads them along.
+        kinked: Parameters with two one-sided derivatives, whose mean is given.
         count_changes: Where the number of bubbles changes.
         smooth_peak_ratio: The smooth maximum over the highest stress itself.
         ends_bound: How much the ends of a unit cell may add to an elasticity of the angle; 0 for
@@ -81,6 +84,7 @@ class Sensitivities:
     responses: Mapping[str, float]
     parameters: tuple[Sensitivity, ...]
     led_along: Mapping[str, tuple[str, ...]]
+    kinked: tuple[str, ...]
     count_changes: tuple[CountChange, ...]
     smooth_peak_ratio: float
     ends_bound: float
@@ -101,6 +105,7 @@ class Sensitivities:
             "responses": dict(self.responses),
             "parameters": [asdict(each) for each in self.parameters],
             "led_along": {name: list(leaders) for name, leaders in self.led_along.items()},
+            "kinked": list(self.kinked),
             "count_changes": [asdict(change) for change in self.count_changes],
             "smooth_peak_ratio": self.smooth_peak_ratio,
             "ends_bound": self.ends_bound,
@@ -157,6 +162,7 @@ def _table(
         responses=values,
         parameters=tuple(_rows(at, gradients, values)),
         led_along=led_along(at.design),
+        kinked=kinked(at.design),
         count_changes=count_changes(at.design),
         smooth_peak_ratio=gradients.smooth_peak.ratio,
         ends_bound=ENDS_BOUND if at.model is UNIT_CELL else 0.0,
@@ -192,25 +198,17 @@ def _factors(at: Equilibrium) -> dict[str, float]:
 
 def _by_geometry(at: Equilibrium, gradients: Gradients) -> dict[str, dict[str, float]]:
     """Derivatives of the body's responses by lengths: products of gradient and surface motion."""
-    surface = at.morpher.skin.nodes
     pulled = {
-        name: at.morpher.pulled_back(each.nodes)[surface]
-        for name, each in gradients.responses.items()
+        name: at.morpher.pulled_back(each.nodes) for name, each in gradients.responses.items()
+    }
+    velocities = {
+        name: at.morpher.boundary_velocity(name, at.design)
+        for name in geometric_parameters(at.design)
     }
     return {
         name: {key: float((each * velocity).sum()) for key, each in pulled.items()}
-        for name, velocity in _velocities(at)
+        for name, velocity in velocities.items()
     }
-
-
-def _velocities(at: Equilibrium) -> Iterator[tuple[str, Reals]]:
-    """Motion of the surface's nodes (k, 3) by each length, mm per mm."""
-    for name, value in geometric_parameters(at.design).items():
-        ahead, behind = (
-            at.morpher.boundary_of(varied(at.design, {name: value + step}))
-            for step in (STEP, -STEP)
-        )
-        yield name, (ahead - behind) / (2 * STEP)
 
 
 def _by_material(design: Design, gradients: Gradients) -> dict[str, dict[str, float]]:

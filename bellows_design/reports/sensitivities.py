@@ -62,6 +62,10 @@ def _notes(found: Sensitivities) -> list[str]:
         f"{fillet} is a full round and follows {' and '.join(leaders)}."
         for fillet, leaders in found.led_along.items()
     ]
+    if found.kinked:
+        notes.append(
+            f"{' and '.join(found.kinked)}: one-sided derivatives differ; their mean is given."
+        )
     if found.ends_bound:
         notes.append(
             f"The ends are kept as they are; they may add ±{found.ends_bound:g} to an elasticity "
