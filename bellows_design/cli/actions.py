@@ -23,8 +23,10 @@ from bellows_design.errors import DesignError
 from bellows_design.validation.quoting import quoted
 
 if TYPE_CHECKING:
+    from bellows_design.analysis.evaluation import Evaluation
     from bellows_design.cli.options import BudgetOptions, DesignOptions
     from bellows_design.cli.templates import Kind
+    from bellows_design.neighbours.sensitivities import Sensitivities
     from bellows_design.progress import Progress
 
 
@@ -102,10 +104,15 @@ def evaluate(
     vtu: Path | None,
     limits: BudgetOptions,
     cached: bool,
+    derivatives: bool = False,
 ) -> Answer:
-    """Compute the design under ``pressure``, to estimated errors of ``accuracy`` percent."""
+    """Compute the design under ``pressure``, to estimated errors of ``accuracy`` percent.
+
+    With ``derivatives`` also how every number of the design changes the results.
+    """
     from bellows_design.cli.pressures import parse_pressures
     from bellows_design.reports.evaluation import evaluation_table
+    from bellows_design.reports.sensitivities import sensitivities_table
 
     require_working_folder()
     require_address_space(EVALUATION)
@@ -121,9 +128,24 @@ def evaluate(
         found = evaluated(chosen, model, accuracy, pressures, progress, budget, store=store)
         writers = () if vtu is None else (lambda: analysis.write_vtu(found, vtu),)
         failed = unwritten(*writers)
+        changes = _sensitivities(found, progress) if derivatives else None
     status = DONE if found.converged else NOT_SOLVED
     content = found.to_dict() | {"from_cache": found.from_cache or None}
-    return Answer(content, evaluation_table(found), status, failed)
+    tables = list(evaluation_table(found))
+    if derivatives:
+        content["sensitivities"] = None if changes is None else changes.to_dict()
+        tables += [] if changes is None else sensitivities_table(changes)
+    return Answer(content, tables, status, failed)
+
+
+def _sensitivities(found: Evaluation, progress: Progress) -> Sensitivities | None:
+    """Those of an evaluation; None where it is no state to take them at."""
+    from bellows_design.neighbours.sensitivities import sensitivities
+
+    if not found.converged or found.contact.void:
+        return None
+    progress.stage("sensitivities")
+    return sensitivities(found)
 
 
 def run(options: DesignOptions, output: Path, limits: BudgetOptions, cached: bool) -> Answer:

@@ -25,6 +25,7 @@ from bellows_design.cli.options import (
     BudgetOptions,
     Columns,
     Decimal,
+    Derivatives,
     DesignName,
     DesignOptions,
     ElongationAtBreak,
@@ -128,6 +129,7 @@ def evaluate(
     pressure: Pressure = None,
     accuracy: Accuracy = None,
     vtu: Vtu = None,
+    sensitivities: Derivatives = False,
     settings: Settings = None,
     memory: Memory = None,
     mesh_seconds: MeshSeconds = None,
@@ -139,7 +141,7 @@ def evaluate(
     options = DesignOptions(name, tuple(settings or ()))
     limits = BudgetOptions(memory, mesh_seconds, seconds)
     asked = (options, model.value, pressure, accuracy, vtu, limits)
-    answer(lambda: actions.evaluate(*asked, cached=not no_cache), as_json)
+    answer(lambda: actions.evaluate(*asked, not no_cache, sensitivities), as_json)
 
 
 @app.command()

@@ -64,6 +64,10 @@ TimeLimit = Annotated[
         "last good state, and says so.",
     ),
 ]
+Derivatives = Annotated[
+    bool,
+    typer.Option("--sensitivities", help="Also derivatives by every number of the design."),
+]
 NoCache = Annotated[
     bool,
     typer.Option("--no-cache", help="Compute anew, and keep nothing: see bellows cache."),
