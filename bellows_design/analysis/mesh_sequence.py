@@ -188,7 +188,7 @@ def _with_ends(
     from bellows_design.analysis.wall_contact import image_gap
     from bellows_design.geometry.face_names import CAVITY
 
-    inner = image_gap(first.finest, CAVITY)
+    (inner,) = image_gap(first.finest, CAVITY)
     if inner is not None and inner <= 0:
         ends.abandon()
         return _refined_to(meshes, _with_free_ends(first, progress), progress)

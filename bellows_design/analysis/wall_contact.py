@@ -107,7 +107,7 @@ def contact_of(bellows: BellowsParameters, mesh: Mesh, displacement: np.ndarray)
 def contact_in_cell(bellows: BellowsParameters, cell: Solution) -> WallContact:
     """Contact in the actuator that a unit cell stands for, where the solver models it."""
     overlap = _overlaps_itself(bellows, cell)
-    outer, inner = (image_gap(cell, surface) for surface in (OUTSIDE, CAVITY))
+    outer, inner = image_gap(cell, OUTSIDE, CAVITY)
     outside, inside = _gaps_in_cell(cell.problem.mesh, cell.displacement)
     missed, within = _unmodelled_in_cell(bellows, outside, inside), _narrowest(inside)
     modelled = {NEIGHBOURS: _touches(outer), INSIDE: _touches(inner)}
@@ -125,14 +125,17 @@ def contact_in_cell(bellows: BellowsParameters, cell: Solution) -> WallContact:
     )
 
 
-def image_gap(cell: Solution, surface: str) -> float | None:
-    """Air (mm) between a surface of a cell and its mirror images; negative where they touch."""
+def image_gap(cell: Solution, *surfaces: str) -> tuple[float | None, ...]:
+    """Air (mm) between surfaces of a cell and their mirror images; negative where they touch."""
     from solver.assembly.contact import image_gaps
 
     contacts = cell.problem.contacts
     gaps = image_gaps(cell.problem, cell.displacement, np.array(cell.plane))
-    own = [gap for contact, gap in zip(contacts, gaps, strict=True) if contact.surface == surface]
-    return min((gap for gap in own if gap is not None), default=None)
+    found = [
+        [gap for contact, gap in zip(contacts, gaps, strict=True) if contact.surface == surface]
+        for surface in surfaces
+    ]
+    return tuple(min((gap for gap in own if gap is not None), default=None) for own in found)
 
 
 def _overlaps_itself(bellows: BellowsParameters, cell: Solution) -> bool:
@@ -140,11 +143,14 @@ def _overlaps_itself(bellows: BellowsParameters, cell: Solution) -> bool:
 
     Each bubble lies between the planes of its gaps' middles, which all meet in the centre of the
     arc. As long as these wedges make less than a full turn together, less one on either side by
-    which a fold may pass its plane, distant ones cannot meet.
+    which a fold may pass its plane, distant ones cannot meet. Once all but one make a full turn,
+    the tendons of the first bubble and the last, at one distance from the centre, overlap.
     """
     wedge = 2 * abs(cell.plane[0])
     if (bellows.bubble_count + 2) * wedge < 2 * np.pi:
         return False
+    if (bellows.bubble_count - 1) * wedge >= 2 * np.pi:
+        return True
     return _outer_gaps(bellows, *chain(bellows, cell)).overlap
 
 

@@ -95,7 +95,7 @@ class Morpher:
         nodes, folded = self.elements.unfolded(self.nodes_of(other))
         if folded:
             raise MorphFailed(folded, self._reached(other))
-        return Mesh(nodes, self.mesh.tets, self.mesh.surfaces)
+        return self.mesh.moved(nodes)
 
     def nodes_of(self, other: Design) -> Reals:
         """Nodes (n, 3) of another design, mm, whether elements fold or not.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass, fields, replace
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 from bellows_design.analysis.computation import Body, Computation, Seconds, SolvedMesh
@@ -21,7 +22,7 @@ from bellows_design.progress import SILENCE, Progress
 from solver.errors import SolverError
 
 if TYPE_CHECKING:
-    from solver import Solution
+    from solver import Peak, Solution
     from solver.nonlinear.newton import Newton
 
 MOST_HALVINGS = 3
@@ -31,16 +32,21 @@ MOST_STATES = 64
 """Solved designs that are remembered besides the first; the oldest are forgotten first."""
 
 
+WITHOUT_FACTORS = 2.0
+"""A solved design whose factors are gone counts as so many times as far away."""
+
+
 class NotReached(BellowsError):
     """A design cannot be reached from its neighbour; the message says why."""
 
 
 @dataclass(frozen=True)
 class SolvedDesign:
-    """A design and the equilibrium of its body on the moved mesh."""
+    """A design, the equilibrium of its body on the moved mesh, and the highest stress."""
 
     design: Design
     solution: Solution
+    peak: Peak
 
 
 @dataclass(frozen=True)
@@ -58,8 +64,8 @@ class Way:
 class Neighbourhood:
     """A session around one ordinary evaluation: it remembers what is solved in it.
 
-    Building it takes about as long as a tenth of an evaluation. It holds the factors of one
-    tangent, about a hundred megabytes for five thousand tetrahedra.
+    It holds the factors of two tangents, at the ordinary evaluation and at the last design, about a
+    hundred megabytes each for five thousand tetrahedra.
     """
 
     def __init__(self, anchor: Evaluation) -> None:
@@ -73,9 +79,9 @@ class Neighbourhood:
             )
         self.anchor = anchor
         self._carried = Carried.of(anchor)
-        finest = anchor.computation.finest
+        finest, peak = anchor.computation.finest, anchor.computation.peaks[-1]
         self._morpher = Morpher.of(anchor.design, anchor.model.name, finest.problem.mesh)
-        self._solved = [SolvedDesign(anchor.design, finest)]
+        self._solved = [SolvedDesign(anchor.design, finest, peak)]
         self._newton: Newton | None = None
 
     def evaluate(
@@ -107,15 +113,13 @@ class Neighbourhood:
 
     def equilibrium(self, found: NeighbourEvaluation) -> Equilibrium:
         """What the sensitivities of one of its results are taken from."""
-        newton, solution = self._newton, found.solution
-        at_hand = newton is not None and newton.problem is solution.problem
         return Equilibrium(
             found.design,
             self.anchor.model,
-            solution,
+            found.solution,
             self._morpher,
             self._carried,
-            newton if at_hand else None,
+            self._at_hand(found.solution),
         )
 
     def distance(self, design: Design) -> float:
@@ -135,12 +139,33 @@ class Neighbourhood:
             )
 
     def _nearest(self, design: Design) -> SolvedDesign:
-        return min(reversed(self._solved), key=lambda solved: distance(solved.design, design))
+        """The solved design to start from: the nearest, rather one whose factors are at hand."""
+
+        def length(solved: SolvedDesign) -> float:
+            factor = 1.0 if self._at_hand(solved.solution) is not None else WITHOUT_FACTORS
+            return factor * distance(solved.design, design)
+
+        return min(reversed(self._solved), key=length)
+
+    def _at_hand(self, solution: Solution) -> Newton | None:
+        """What has the factors of the tangent at a solution; None if they are gone."""
+        if solution is self._solved[0].solution:
+            return self._at_anchor
+        newton = self._newton
+        return newton if newton is not None and newton.problem is solution.problem else None
+
+    @cached_property
+    def _at_anchor(self) -> Newton:
+        """With the factors of the tangent at the ordinary evaluation."""
+        from solver import neighbouring
+
+        solution = self._solved[0].solution
+        return neighbouring(solution.problem, solution.pressure, solution).newton
 
     def _reached(self, design: Design, start: SolvedDesign, halvings: int) -> Way:
         """The way to ``design``, by designs in between if it cannot be reached at once."""
         try:
-            return Way((SolvedDesign(design, self._step(design, start)),))
+            return Way((self._step(design, start),))
         except NotReached:
             if halvings == 0:
                 raise
@@ -148,24 +173,28 @@ class Neighbourhood:
         first = self._reached(half, start, halvings - 1)
         return Way((*first.solved, *self._reached(design, first.end, halvings - 1).solved))
 
-    def _step(self, design: Design, start: SolvedDesign) -> Solution:
+    def _step(self, design: Design, start: SolvedDesign) -> SolvedDesign:
         """The equilibrium of ``design`` from that of a neighbour. Raises ``NotReached``."""
         from solver import neighbouring
 
         mesh = self._morpher.mesh_of(design)
         problem = self.anchor.model.problem(design, mesh)
-        found = neighbouring(problem, design.load.pressure, start.solution, self._newton)
+        found = neighbouring(
+            problem,
+            design.load.pressure,
+            start.solution,
+            former=self._newton,
+            at_hand=self._at_hand(start.solution),
+        )
         self._newton = found.newton
-        if found.solution is None:
+        if found.solution is None or found.peak is None:
             raise NotReached(found.failure)
-        return found.solution
+        return SolvedDesign(design, found.solution, found.peak)
 
     def _judged(self, way: Way) -> NeighbourEvaluation:
         """The record of a design that was reached. Raises ``NotReached`` if it does not hold."""
-        from solver import peak_von_mises
-
-        design, solution = way.end.design, way.end.solution
-        peak, apart = peak_von_mises(solution), self.distance(design)
+        design, solution, peak = way.end.design, way.end.solution, way.end.peak
+        apart = self.distance(design)
         cells = loaded_state(self._computation(design, SolvedMesh(solution, peak)))
         if cells.contact.void:
             raise NotReached(f"{' and '.join(cells.contact.where)} touch, which is not modelled")

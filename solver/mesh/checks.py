@@ -5,11 +5,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from solver.arrays import Integers
 from solver.errors import SolverError
 from solver.mesh.elements import TETRAHEDRON_EDGES as EDGES
 from solver.mesh.elements import TRIANGLE_EDGES
-from solver.mesh.faces import face_keys, place_of
+from solver.mesh.faces import edge_keys, face_keys, place_of
 from solver.mesh.jacobians import least_jacobians
 from solver.mesh.mesh import Mesh
 
@@ -24,7 +23,8 @@ def check_mesh(mesh: Mesh, pressurised: tuple[str, ...], loaded: tuple[str, ...]
         raise SolverError("mesh: it has no tetrahedra.")
     outer = mesh.outer_faces
     for surface in (*pressurised, *loaded):
-        _check_surface(mesh, surface, outer)
+        if surface not in mesh.boundary_surfaces:
+            _check_surface(mesh, surface, outer)
     triangles = mesh.triangles(*pressurised)
     keys, first = np.unique(face_keys(triangles, len(mesh.nodes)), return_index=True)
     if len(keys) < len(triangles):
@@ -75,18 +75,11 @@ def _check_surface(mesh: Mesh, surface: str, outer: NDArray[np.int64]) -> None:
             f"loads: a triangle of the surface {surface!r} at {place_of(mesh.nodes, bad)} mm "
             f"{what}."
         )
-    askew = ~np.isin(_edges(triangles, TRIANGLE_EDGES, mesh), _edges(mesh.tets, EDGES, mesh))
+    size = len(mesh.nodes)
+    askew = ~np.isin(edge_keys(triangles, TRIANGLE_EDGES, size), edge_keys(mesh.tets, EDGES, size))
     if askew.any():
         bad = triangles[askew.reshape(-1, 3).any(axis=1)][0]
         raise SolverError(
             f"loads: a triangle of the surface {surface!r} at {place_of(mesh.nodes, bad)} mm "
             "has other mid-nodes than its tetrahedron."
         )
-
-
-def _edges(cells: Integers, edges: tuple[tuple[int, int], ...], mesh: Mesh) -> NDArray[np.int64]:
-    """One number for each edge of quadratic cells (k, m): its ends and its mid-node."""
-    corners = cells.shape[1] - len(edges)
-    ends = np.sort(np.stack([cells[:, edge] for edge in edges], axis=1).astype(np.int64), axis=2)
-    size = len(mesh.nodes)
-    return ((ends[..., 0] * size + ends[..., 1]) * size + cells[:, corners:]).ravel()

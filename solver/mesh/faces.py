@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from solver.arrays import Integers, Reals
 from solver.errors import SolverError
+from solver.mesh.elements import TETRAHEDRON_EDGES, TRIANGLE_EDGES
 
 FACES = ((0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2))
 """Corners of a tetrahedron's faces, with outward normals."""
@@ -27,6 +28,29 @@ def outer_faces(nodes: Reals, tets: Integers) -> NDArray[np.int64]:
             "given twice or overlap."
         )
     return face_keys(faces[first[counts == 1]], size)
+
+
+def lie_outside(triangles: Integers, tets: Integers, outer: NDArray[np.int64], size: int) -> bool:
+    """Whether triangles (k, 6) are ``outer`` faces, given by their keys, mid-nodes included.
+
+    ``tets`` (e, 10) are the tetrahedra on ``size`` nodes.
+    """
+    return bool(
+        np.isin(face_keys(triangles, size), outer).all()
+        and np.isin(
+            edge_keys(triangles, TRIANGLE_EDGES, size), edge_keys(tets, TETRAHEDRON_EDGES, size)
+        ).all()
+    )
+
+
+def edge_keys(
+    cells: Integers, edges: tuple[tuple[int, int], ...], number_of_nodes: int
+) -> NDArray[np.int64]:
+    """One number for each edge of quadratic cells (k, m): its ends and its mid-node."""
+    corners = cells.shape[1] - len(edges)
+    ends = np.sort(np.stack([cells[:, edge] for edge in edges], axis=1).astype(np.int64), axis=2)
+    places = ends[..., 0] * number_of_nodes + ends[..., 1]
+    return (places * number_of_nodes + cells[:, corners:]).ravel()
 
 
 def face_keys(triangles: Integers, number_of_nodes: int) -> NDArray[np.int64]:

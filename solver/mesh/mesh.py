@@ -15,7 +15,7 @@ from solver.arrays import Integers, Reals
 from solver.errors import SolverError
 from solver.input_types import mapping, shown
 from solver.mesh.elements import TETRAHEDRON_EDGES
-from solver.mesh.faces import outer_faces
+from solver.mesh.faces import lie_outside, outer_faces
 
 
 @dataclass(frozen=True)
@@ -79,6 +79,16 @@ class Mesh:
         """
         return outer_faces(self.nodes, self.tets)
 
+    @cached_property
+    def boundary_surfaces(self) -> frozenset[str]:
+        """Names of the surfaces that have triangles, all of them ``outer_faces``."""
+        outer, size = self.outer_faces, len(self.nodes)
+        return frozenset(
+            name
+            for name, triangles in self.surfaces.items()
+            if len(triangles) and lie_outside(triangles, self.tets, outer, size)
+        )
+
     @property
     def size(self) -> float:
         """Diagonal of the bounding box, mm."""
@@ -126,7 +136,7 @@ class Mesh:
         return np.unique(self.triangles(*names))
 
 
-CONNECTIVITY = ("vertices", "tet_vertices", "outer_faces")
+CONNECTIVITY = ("vertices", "tet_vertices", "outer_faces", "boundary_surfaces")
 """Properties of a mesh that do not depend on where its nodes are."""
 
 

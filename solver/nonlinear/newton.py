@@ -33,7 +33,7 @@ from solver.nonlinear.options import SolverOptions
 from solver.problem.problem import Problem
 from solver.results.sharp_edges import trusted_nodes
 from solver.results.solution import PathPoint
-from solver.results.stress import deviatoric_at_nodes, von_mises
+from solver.results.stress import Peak, deviatoric_at_nodes, von_mises
 
 DIFFERENCE = 1e-6
 """Fraction of the load between the two residuals of a difference quotient."""
@@ -190,7 +190,7 @@ class Newton:
             iteration += 1
             own = own if reuse else not len(state.geometric_stress)
             try:
-                found = self.correction(state, load, reuse, iteration)
+                found = self.correction(state, load, self.system if reuse else None, iteration)
             except NoCorrection as reason:
                 return Attempt(guess, iteration, str(reason), touched=touched)
             small, touches = self._is_small(found, load, tolerance)
@@ -208,15 +208,20 @@ class Newton:
         failure = f"Newton did not converge in {iteration} iterations"
         return Attempt(guess, iteration, failure, touched=touched)
 
-    def correction(self, state: State, load: float, reuse: bool, iteration: int) -> Correction:
-        """One correction, with the last factorization if ``reuse``. Raises ``NoCorrection``."""
-        equilibrium = self.evaluate(state, load, tangent=not reuse)
+    def correction(
+        self, state: State, load: float, at_hand: LinearSystem | None = None, iteration: int = 0
+    ) -> Correction:
+        """One correction, with a factorization ``at_hand`` or a new one.
+
+        Raises ``NoCorrection``.
+        """
+        equilibrium = self.evaluate(state, load, tangent=at_hand is None)
         if not equilibrium.admissible:
             raise NoCorrection("an element would turn inside out")
         try:
-            if not reuse:
+            if at_hand is None:
                 self.factorize(equilibrium)
-            increment = self.system.increment(-equilibrium.residual)
+            increment = (at_hand or self.system).increment(-equilibrium.residual)
         except SingularMatrix as error:
             raise NoCorrection(f"the tangent is singular ({error})") from error
         size = self.kinematics.longest(state, increment)
@@ -377,18 +382,30 @@ class Newton:
         share = self.loading.share
         return self.assembly.contacts.way(share(load), share(target))
 
-    def point(self, state: State, load: float, iterations: int, stable: bool | None) -> PathPoint:
-        """Describe an equilibrium."""
-        stress = von_mises(deviatoric_at_nodes(self.problem, state.displacement))
+    def point(
+        self,
+        state: State,
+        load: float,
+        iterations: int,
+        stable: bool | None,
+        peak: Peak | None = None,
+    ) -> PathPoint:
+        """Describe an equilibrium; ``peak``: of its stress, where that is known."""
+        stress = self._highest_stress(state) if peak is None else peak.value
         return PathPoint(
             pressure=self.loading.pressure(load),
             rotation=self.kinematics.rotation(state),
             iterations=iterations,
-            max_von_mises=float(stress[self.trusted].max(initial=0.0)),
+            max_von_mises=stress,
             volume=enclosed_volume(self.problem.mesh, state.displacement, self.problem.pressurised),
             load=load,
             stable=stable,
         )
+
+    def _highest_stress(self, state: State) -> float:
+        """Largest nodal von Mises stress, MPa."""
+        stress = von_mises(deviatoric_at_nodes(self.problem, state.displacement))
+        return float(stress[self.trusted].max(initial=0.0))
 
     def notify(
         self,

@@ -16,12 +16,17 @@ import numpy as np
 from solver.assembly.state import State
 from solver.errors import SolverError
 from solver.nonlinear.call_checks import check_call
+from solver.nonlinear.linear_system import LinearSystem
 from solver.nonlinear.loading import Loading
 from solver.nonlinear.newton import Attempt, Newton, NoCorrection
 from solver.nonlinear.options import SolverOptions
 from solver.paths.outcome import Path, solution_of
 from solver.problem.problem import Problem
 from solver.results.solution import Solution, check_solution
+from solver.results.stress import Peak, peak_of
+
+OPTIONS = SolverOptions(reuse=0.5)
+"""Another iteration by the same factorization costs a quarter of a new one."""
 
 
 @dataclass(frozen=True)
@@ -32,11 +37,13 @@ class Neighbouring:
         solution: with the only point of its path at the whole load; None if there is ``failure``.
         failure: why there is none, as text; empty if there is one.
         newton: what the next neighbour takes over.
+        peak: the solution's largest stress.
     """
 
     solution: Solution | None
     failure: str
     newton: Newton
+    peak: Peak | None = None
 
 
 def neighbouring(
@@ -45,6 +52,7 @@ def neighbouring(
     near: Solution,
     former: Newton | None = None,
     options: SolverOptions | None = None,
+    at_hand: Newton | None = None,
 ) -> Neighbouring:
     """Equilibrium of ``problem`` under ``pressure`` (MPa), from that of a neighbouring problem.
 
@@ -60,6 +68,7 @@ def neighbouring(
         near: the equilibrium of the neighbouring problem.
         former: what the solve before left, of no use after this one; by default all is set up anew.
         options: tolerances and the linear solver.
+        at_hand: what a solve left whose factorization is that of ``near``; by default ``former``.
 
     Raises:
         SolverError: invalid input, or a mesh with other tetrahedra.
@@ -69,24 +78,25 @@ def neighbouring(
     _check_same_cells(problem, near.problem)
     began = time.perf_counter()
     loading = Loading.of(problem, float(pressure))
-    newton = Newton(problem, loading, options or SolverOptions(), former=former)
+    newton = Newton(problem, loading, options or OPTIONS, former=former)
     start = newton.kinematics.start(near.displacement, near.hydrostatic_pressure)
-    attempt = _found(newton, start)
+    attempt = _found(newton, start, (at_hand or newton).system)
     if attempt.failure:
         newton.system.forget()
         return Neighbouring(None, attempt.failure, newton)
     newton.effort.load_steps += 1
-    point = newton.point(attempt.state, 1.0, attempt.iterations, newton.system.stable)
-    path = Path(attempt.state, (point,))
-    return Neighbouring(solution_of(newton, path, time.perf_counter() - began), "", newton)
+    peak = peak_of(problem, attempt.state.displacement, newton.trusted)
+    point = newton.point(attempt.state, 1.0, attempt.iterations, newton.system.stable, peak)
+    solution = solution_of(newton, Path(attempt.state, (point,)), time.perf_counter() - began)
+    return Neighbouring(solution, "", newton, peak)
 
 
-def _found(newton: Newton, start: State) -> Attempt:
+def _found(newton: Newton, start: State, at_hand: LinearSystem) -> Attempt:
     """The equilibrium at the whole load from ``start``, by way of its first-order change."""
     tolerance = newton.options.tolerance
-    if newton.system.factorized:
+    if at_hand.factorized:
         try:
-            change = newton.correction(start, 1.0, True, 0)
+            change = newton.correction(start, 1.0, at_hand)
         except NoCorrection:
             return newton.correct(start, 1.0, tolerance)
         moved = newton.correct(change.moved, 1.0, tolerance, previous=newton.distance(change))

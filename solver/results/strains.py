@@ -19,8 +19,11 @@ def principal_logs(mesh: Mesh, displacement: Reals) -> Reals:
     relative precision.
     """
     gradients = tetrahedron_rule().gradients
-    jacobian = np.einsum("qai,eaj->eqij", gradients, mesh.nodes[mesh.tets])
-    change = np.einsum("qai,eaj->eqij", gradients, displacement[mesh.tets])
+    rows = gradients.swapaxes(1, 2).reshape(-1, gradients.shape[1])  # of points and directions
+    jacobian, change = (
+        (rows @ values[mesh.tets]).reshape(len(mesh.tets), -1, 3, 3)
+        for values in (mesh.nodes, displacement)
+    )
     h = np.linalg.solve(jacobian, change)  # transposed: h[j, i] = du_i / dX_j
     strain = h + h.swapaxes(-1, -2) + h @ h.swapaxes(-1, -2)
     logs: Reals = 0.5 * np.log1p(np.linalg.eigvalsh(strain))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from solver.arrays import Integers, Reals
 from solver.assembly.assembly import solid
@@ -79,12 +80,20 @@ def peak_von_mises(solution: Solution) -> Peak:
         The stress and where it is.
     """
     check_solution(solution)
-    mesh = solution.problem.mesh
-    stress = element_stress(solution)
-    at_nodes = averaged(mesh.tets, stress.raw, stress.volumes, len(mesh.nodes))
-    values = np.where(trusted_nodes(solution.problem), von_mises(at_nodes), 0.0)
+    return peak_of(solution.problem, solution.displacement)
+
+
+def peak_of(
+    problem: Problem, displacement: Reals, counted: NDArray[np.bool_] | None = None
+) -> Peak:
+    """The same after a displacement (n, 3), mm; ``counted`` (n,): the nodes that count."""
+    mesh, stress = problem.mesh, stress_after(problem, displacement)
+    counted = trusted_nodes(problem) if counted is None else counted
+    values = np.where(counted, von_mises(stress.nodal), 0.0)
     node = int(values.argmax())
-    differences = von_mises(stress.jumps[mesh.tets == node])
+    around = (mesh.tets == node).any(axis=1)
+    jumps = stress.raw[around] - stress.nodal[mesh.tets[around]]
+    differences = von_mises(jumps[mesh.tets[around] == node])
     scatter = float(np.sqrt((differences**2).mean()))
     x, y, z = (float(c) for c in mesh.nodes[node])
     return Peak(float(values[node]), node, (x, y, z), scatter)
@@ -94,13 +103,19 @@ def peak_von_mises(solution: Solution) -> Peak:
 class ElementStress:
     """Deviatoric Cauchy stress at the ten nodes of each element, MPa.
 
-    ``raw`` (e, 10, 6) of the element itself, ``smoothed`` (e, 10, 6) of the nodal averages;
-    ``volumes`` (e,) of the elements, mm^3.
+    ``raw`` (e, 10, 6) of the element itself, ``nodal`` (n, 6) averages at the nodes of the mesh,
+    ``volumes`` (e,) of the elements, mm^3; ``tets`` (e, 10).
     """
 
     raw: Reals
-    smoothed: Reals
+    nodal: Reals
     volumes: Reals
+    tets: Integers
+
+    @property
+    def smoothed(self) -> Reals:
+        """The nodal averages at the nodes of each element, (e, 10, 6)."""
+        return self.nodal[self.tets]
 
     @property
     def jumps(self) -> Reals:
@@ -110,10 +125,16 @@ class ElementStress:
 
 def element_stress(solution: Solution) -> ElementStress:
     """Deviatoric stress in the elements of a solution, and smoothed over them."""
-    mesh = solution.problem.mesh
-    raw, volumes = in_elements(solid(solution.problem), solution.displacement)
-    smoothed = averaged(mesh.tets, raw, volumes, len(mesh.nodes))[mesh.tets]
-    return ElementStress(raw, smoothed, volumes)
+    return stress_after(solution.problem, solution.displacement)
+
+
+def stress_after(problem: Problem, displacement: Reals) -> ElementStress:
+    """The same after a displacement (n, 3), mm."""
+    mesh = problem.mesh
+    raw, volumes = in_elements(solid(problem), displacement)
+    return ElementStress(
+        raw, averaged(mesh.tets, raw, volumes, len(mesh.nodes)), volumes, mesh.tets
+    )
 
 
 def von_mises(stress: Reals) -> Reals:

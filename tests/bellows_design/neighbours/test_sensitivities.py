@@ -90,13 +90,13 @@ def test_scaling_all_lengths_keeps_angle_and_stress(
     anchor: Evaluation, found: Sensitivities
 ) -> None:
     """Up to the error of the coarse mesh, whose nodes slide along the faces as these grow."""
-    for key, power in ((ANGLE, 0), (STRESS, 0), (VOLUME, 3)):
+    for key, power, share in ((ANGLE, 0, 0.01), (STRESS, 0, 0.03), (VOLUME, 3, 0.01)):
         total = sum(
             found.of(name).derivatives[key] * value
             for name, value in geometric_parameters(anchor.design).items()
         )
         cells = _of_cells(anchor, found, key)
-        assert total == pytest.approx(power * cells, abs=1e-2 * abs(cells))
+        assert total == pytest.approx(power * cells, abs=share * abs(cells))
 
 
 def test_scaling_pressure_and_moduli_together_scales_the_stress_alone(
