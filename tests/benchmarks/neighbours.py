@@ -12,6 +12,7 @@ pool. Prints Markdown, writes JSON.
 from __future__ import annotations
 
 import json
+import os
 import subprocess
 import sys
 import time
@@ -24,7 +25,8 @@ from typing import Any
 import numpy as np
 from first_answer import environment
 
-ROOT = Path(__file__).parents[2]
+HERE = Path(__file__).parent
+ROOT = HERE.parents[1]
 SEED = 20261126
 BASES = ("prototype_1", "prototype_2", "finger")
 SHARE = 0.05
@@ -94,7 +96,7 @@ class Worker:
             [sys.executable, "-P", __file__, role],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
-            env=environment(checkout),
+            env=environment(checkout) | {"PYTHONPATH": f"{checkout}{os.pathsep}{HERE}"},
             cwd=checkout,
             encoding="utf-8",
         )
