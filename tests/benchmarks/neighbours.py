@@ -156,9 +156,8 @@ def numbers(found: Any) -> dict[str, Any]:
 
 def neighbours(count: int) -> Iterator[Neighbour]:
     """So many valid neighbours, base by base in turn."""
-    from bellows_design.design.variation import geometric_parameters, varied
-
     from bellows_design.design.shipped import load_design
+    from bellows_design.design.variation import geometric_parameters, varied
     from bellows_design.errors import BellowsError
 
     generator = np.random.default_rng(SEED)
@@ -258,9 +257,8 @@ def _line(name: str, rows: Sequence[Row]) -> str:
 
 def walk(count: int) -> dict[str, Any]:
     """A random walk from Prototype 1 through a pool: seconds for each design, and how it went."""
-    from bellows_design.design.variation import geometric_parameters, varied
-
     from bellows_design.design.shipped import load_design
+    from bellows_design.design.variation import geometric_parameters, varied
     from bellows_design.errors import BellowsError
     from bellows_design.evaluation import Pool
 
