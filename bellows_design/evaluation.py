@@ -53,6 +53,7 @@ def evaluate(
     progress: Progress = ...,
     budget: Budget = ...,
     open_question: Callable[[LoadedState], str] = ...,
+    keep: bool = ...,
     near: None = ...,
 ) -> Evaluation: ...
 
@@ -71,6 +72,7 @@ def evaluate(
     progress: Progress = SILENCE,
     budget: Budget = DEFAULT,
     open_question: Callable[[LoadedState], str] = _nothing,
+    keep: bool = False,
     near: Near | None = None,
 ) -> Evaluation | NeighbourEvaluation:
     """Evaluate ``design``: by itself, or starting from a neighbour (``near``).
@@ -90,7 +92,7 @@ def evaluate(
     """
     if near is None:
         return analysis.evaluate(
-            design, model, accuracy_percent, pressures, progress, budget, open_question
+            design, model, accuracy_percent, pressures, progress, budget, open_question, keep
         )
     if model != "auto" or accuracy_percent is not None or len(pressures):
         raise DesignError(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -13,6 +13,7 @@ from bellows_design.design.design import Design
 if TYPE_CHECKING:
     from bellows_design.geometry.named_solids import NamedSolid
     from solver import Peak, Solution
+    from solver.nonlinear.newton import Newton
 
 
 @dataclass(frozen=True)
@@ -72,7 +73,8 @@ class Computation:
     bubble, or of a bubble without neighbours, on the unit cell's coarsest mesh size; ``pressures``
     (MPa) those asked for besides the design's; ``reason`` why this model was chosen; ``ends_peak``
     the highest von Mises Cauchy stress in the ends; ``out_of_time`` that a finer mesh was wanted
-    for which the budget's time did not suffice.
+    for which the budget's time did not suffice; ``workspace`` what the solve on the finest mesh
+    left, where ``keep`` asks for it.
     """
 
     design: Design
@@ -86,6 +88,8 @@ class Computation:
     ends_peak: Peak | None = None
     seconds: Seconds = Seconds()
     out_of_time: bool = False
+    keep: bool = False
+    workspace: Newton | None = field(default=None, repr=False, compare=False)
 
     @property
     def in_time(self) -> bool:

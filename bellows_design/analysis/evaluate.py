@@ -46,6 +46,7 @@ def evaluate(
     progress: Progress = SILENCE,
     budget: Budget = DEFAULT,
     open_question: Callable[[LoadedState], str] = lambda _: "",
+    keep: bool = False,
 ) -> Evaluation:
     """Evaluate ``design`` at its design pressure, and at ``pressures`` between 0 and that.
 
@@ -60,6 +61,8 @@ def evaluate(
         open_question: Asked with the state on the finest mesh what its error estimates leave open,
             as text; empty if nothing. The mesh is refined further for it, within the budget, and
             as long as refinement promises an answer.
+        keep: Keep the factors of the finest mesh's tangent with the result, for its sensitivities;
+            about a hundred megabytes for five thousand tetrahedra.
 
     Returns:
         The evaluation; with ``converged`` False, of the last good state, where the load could not
@@ -72,7 +75,8 @@ def evaluate(
     """
     _check(design, accuracy_percent, pressures)
     body, reason = choose(design, model)
-    computation = started(design, body, reason, pressures, progress, budget, body.levels - 1)
+    levels = body.levels - 1
+    computation = started(design, body, reason, pressures, progress, budget, levels, keep)
     while not _enough(computation, accuracy_percent):
         plan = affordable_plan(computation)
         if plan is None:

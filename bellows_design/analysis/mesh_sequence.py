@@ -7,7 +7,7 @@ starts from it at full load and needs a handful of iterations.
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from bellows_design.analysis.mesh_plan import PlannedMesh
     from solver import Event, Mesh, Problem, Solution, SolverOptions
     from solver.arrays import Reals
+    from solver.nonlinear.newton import Newton
 
 ROUGH = 1e-3
 """Newton tolerance on meshes that are only a step to the next, in units of the body's diagonal."""
@@ -35,6 +36,7 @@ def started(
     progress: Progress = SILENCE,
     budget: Budget = DEFAULT,
     meshes: int = 1,
+    keep: bool = False,
 ) -> Computation:
     """``design`` on the coarsest mesh of ``model``, with the ends if that is the unit cell.
 
@@ -49,6 +51,7 @@ def started(
         progress: Listens to stages and load.
         budget: Memory (GiB) and seconds that a mesh may take.
         meshes: So many meshes, from coarse to fine, where the budget and the solutions allow it.
+        keep: Keep what the solve on the finest of the model's meshes leaves.
 
     Returns:
         The first solutions; ``refined`` adds those on finer meshes.
@@ -74,7 +77,7 @@ def started(
         body = Body(design, model)
         _ = body.solid  # now, so that its time is counted
         spent = Seconds(geometry=time.perf_counter() - start)
-        blank = Computation(design, model, reason, body, asked, budget, seconds=spent)
+        blank = Computation(design, model, reason, body, asked, budget, seconds=spent, keep=keep)
         first = _refined_beside(ends, blank, progress)
         if model is UNIT_CELL and first.converged:
             return _with_ends(first, meshes, ends, progress)
@@ -106,7 +109,8 @@ def refined(
     mesh = (plan or next_plan(computation)).made(computation.budget)
     meshed = time.perf_counter()
     progress.stage(f"solve {number}, {len(mesh.tets)} tetrahedra")
-    solution = _solved_on(mesh, computation, progress)
+    left: list[Newton] = []
+    solution = _solved_on(mesh, computation, progress, left.append)
     spent = Seconds(mesh=meshed - began, solve=time.perf_counter() - meshed)
     if solution.stopped_by == "budget" and computation.solved and computation.converged:
         return replace(computation, seconds=computation.seconds + spent, out_of_time=True)
@@ -114,6 +118,7 @@ def refined(
         computation,
         solved=(*computation.solved, SolvedMesh(solution, peak_von_mises(solution))),
         seconds=computation.seconds + spent,
+        workspace=left[0] if left else None,
     )
 
 
@@ -154,8 +159,13 @@ SOLVE_ORDER = 1.5
 """Growth of a factorization's time with the number of elements."""
 
 
-def _solved_on(mesh: Mesh, computation: Computation, progress: Progress) -> Solution:
-    """Solve on the next mesh; only the last of the model's meshes needs the full tolerance."""
+def _solved_on(
+    mesh: Mesh, computation: Computation, progress: Progress, keep: Callable[[Newton], None]
+) -> Solution:
+    """Solve on the next mesh; only the last of the model's meshes needs the full tolerance.
+
+    What that solve leaves is given to ``keep``, if the computation asks for it.
+    """
     from solver import SolverOptions, transfer
 
     design, model, level = computation.design, computation.model, len(computation.solved)
@@ -164,7 +174,8 @@ def _solved_on(mesh: Mesh, computation: Computation, progress: Progress) -> Solu
     tolerance = ROUGH if only_a_step else SolverOptions.tolerance
     options = _options(computation, tolerance)
     stops = () if level and only_a_step else computation.pressures
-    return _solved(design, model.problem(design, mesh), progress, options, initial, stops)
+    kept = keep if computation.keep and not only_a_step else None
+    return _solved(design, model.problem(design, mesh), progress, options, initial, stops, kept)
 
 
 @dataclass(frozen=True)
@@ -208,6 +219,7 @@ def _with_ends(
             solved=finer.solved,
             seconds=with_ends.seconds + more,
             out_of_time=with_ends.out_of_time or finer.out_of_time,
+            workspace=finer.workspace,
         )
     return _refined_to(meshes, with_ends, progress)
 
@@ -310,6 +322,7 @@ def _solved(
     options: SolverOptions,
     initial: tuple[Reals, Reals] | None = None,
     stops: Sequence[float] = (),
+    keep: Callable[[Newton], None] | None = None,
 ) -> Solution:
     """Solve at the design's pressure and report the load reached."""
     from bellows_design.analysis.wall_contact import touch_guard
@@ -326,4 +339,5 @@ def _solved(
         initial=initial,
         stops=stops,
         guard=touch_guard(design.bellows, problem),
+        keep=keep,
     )

@@ -125,7 +125,9 @@ def evaluate(
 
     store = Store.usual() if cached else None
     with _solving() as progress:
-        found = evaluated(chosen, model, accuracy, pressures, progress, budget, store=store)
+        found = evaluated(
+            chosen, model, accuracy, pressures, progress, budget, store=store, keep=derivatives
+        )
         writers = () if vtu is None else (lambda: analysis.write_vtu(found, vtu),)
         failed = unwritten(*writers)
         changes = _sensitivities(found, progress) if derivatives else None

@@ -138,9 +138,9 @@ def _equilibrium(found: Evaluation | NeighbourEvaluation) -> Equilibrium:
     if isinstance(found, NeighbourEvaluation) and found.neighbourhood is not None:
         return found.neighbourhood.equilibrium(found)
     anchor = found.anchor if isinstance(found, NeighbourEvaluation) else found
-    solution = anchor.computation.finest
+    solution, kept = anchor.computation.finest, anchor.computation.workspace
     morpher = Morpher.of(anchor.design, anchor.model.name, solution.problem.mesh)
-    return Equilibrium(anchor.design, anchor.model, solution, morpher, Carried.of(anchor))
+    return Equilibrium(anchor.design, anchor.model, solution, morpher, Carried.of(anchor), kept)
 
 
 def _gradients(at: Equilibrium) -> Gradients:

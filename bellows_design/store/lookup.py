@@ -26,6 +26,7 @@ def evaluated(
     budget: Budget = DEFAULT,
     open_question: Callable[[LoadedState], str] = lambda _: "",
     store: Store | None = None,
+    keep: bool = False,
 ) -> Evaluation:
     """What ``analysis.evaluate.evaluate`` returns for the same arguments, from ``store`` if there.
 
@@ -39,14 +40,16 @@ def evaluated(
 
     question = (design, model, accuracy_percent, pressures)
     if store is None:
-        return analysis.evaluate(*question, progress, budget=budget, open_question=open_question)
+        return analysis.evaluate(
+            *question, progress, budget=budget, open_question=open_question, keep=keep
+        )
     from bellows_design.store.key import key_of
 
     def kept(further: int, compute: Callable[[], Computed]) -> Evaluation | Computed:
         key = key_of(*question, budget, further)
         return store.find(key, design) or _kept(store, key, compute(), progress)
 
-    first = kept(0, lambda: analysis.evaluate(*question, progress, budget=budget))
+    first = kept(0, lambda: analysis.evaluate(*question, progress, budget=budget, keep=keep))
     meshes = len(first.meshes)
 
     def finer(found: Evaluation, why: str, progress: Progress) -> Evaluation | None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import threading
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
@@ -23,6 +25,38 @@ def told_of_compilation(tell: Callable[[bool], None]) -> Iterator[None]:
     """
     with event.install_listener(COMPILATION, _Once(tell)):
         yield
+
+
+class CompilationClock(Listener):
+    """Seconds in which functions were compiled, in any thread, each second once."""
+
+    def __init__(self) -> None:
+        self.seconds = 0.0
+        self._depth = 0
+        self._began = 0.0
+        self._lock = threading.Lock()
+
+    def on_start(self, event: Any) -> None:
+        """A function begins to be compiled."""
+        with self._lock:
+            if self._depth == 0:
+                self._began = time.perf_counter()
+            self._depth += 1
+
+    def on_end(self, event: Any) -> None:
+        """It is compiled."""
+        with self._lock:
+            self._depth -= 1
+            if self._depth == 0:
+                self.seconds += time.perf_counter() - self._began
+
+
+@contextmanager
+def compilation_clock() -> Iterator[CompilationClock]:
+    """Count the seconds of compilation within the block."""
+    clock = CompilationClock()
+    with event.install_listener(COMPILATION, clock):
+        yield clock
 
 
 class _Once(Listener):

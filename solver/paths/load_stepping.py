@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import astuple, dataclass, replace
 
 import numpy as np
@@ -18,6 +18,7 @@ from solver.nonlinear.events import Guard, Listener
 from solver.nonlinear.loading import Loading
 from solver.nonlinear.newton import Attempt, Newton
 from solver.nonlinear.options import FIRST_STEP, SolverOptions
+from solver.numerics.first_run import compilation_clock
 from solver.paths.outcome import AtStop, Path, Points, solution_of
 from solver.paths.step_control import Segment, StepControl, follow
 from solver.paths.stopping import corrected, stopped
@@ -47,6 +48,7 @@ def solve(
     resume: Checkpoint | None = None,
     guard: Guard | None = None,
     after: Solution | None = None,
+    keep: Callable[[Newton], None] | None = None,
 ) -> Solution:
     """Equilibrium of ``problem`` under ``pressure``, reached from zero load.
 
@@ -76,6 +78,8 @@ def solve(
             place of the undeformed body. Along the path the loads change from those of that stage
             to those of ``problem``, in proportion; its supports hold nodes where they are at the
             start, and lead them on from there; supports that it does not have let go step by step.
+        keep: is given at the end what the solve leaves, the last factorization with it, for
+            derivatives (``gradients``) or a neighbouring solve; it takes memory.
 
     Returns:
         The last equilibrium found, with the path to it.
@@ -86,11 +90,33 @@ def solve(
     check_call(problem, options, listener, after, resume)
     check_initial(initial)
     check_function("guard", guard, "a State")
+    check_function("keep", keep, "what a solve leaves")
     check_number("pressure", pressure)
     if not np.isfinite(pressure):
         raise SolverError(f"pressure must be a finite number of MPa, got {pressure}.")
     start = time.perf_counter()
-    loading = Loading.of(problem, float(pressure), after)
+    with compilation_clock() as compiling:
+        newton, path = _solved(
+            problem, float(pressure), options, listener, initial, stops, resume, guard, after
+        )
+    if keep is not None:
+        keep(newton)
+    return solution_of(newton, path, time.perf_counter() - start - compiling.seconds)
+
+
+def _solved(
+    problem: Problem,
+    pressure: float,
+    options: SolverOptions | None,
+    listener: Listener | None,
+    initial: tuple[Reals, Reals] | None,
+    stops: Sequence[float],
+    resume: Checkpoint | None,
+    guard: Guard | None,
+    after: Solution | None,
+) -> tuple[Newton, Path]:
+    """The path of a solve, and what it was found with."""
+    loading = Loading.of(problem, pressure, after)
     loads = _stops(stops, loading)
     newton = Newton(problem, loading, options or SolverOptions(), listener)
     path = None
@@ -100,7 +126,7 @@ def solve(
         path = _from_whole_load(newton, newton.kinematics.start(*initial), loads, guard)
     if path is None:
         path = _loaded(newton, loads, *_from_zero(newton), guard)
-    return solution_of(newton, path, time.perf_counter() - start)
+    return newton, path
 
 
 @dataclass(frozen=True)

@@ -71,7 +71,7 @@ class Solution:
         linear_solver: its name.
         negative_pivots: of the last tangent that was factorized; v where the state is stable, None
             if the linear solver cannot tell.
-        seconds: of the solve.
+        seconds: of the solve, without those in which kernels were compiled.
         plane: tilt (rad) and shift (mm) of the moving plane, zeros without one.
         load: fraction of the whole load.
         limit: pressure at the limit point that ended the path, MPa (fraction of the load where

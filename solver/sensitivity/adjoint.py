@@ -26,8 +26,9 @@ ENOUGH = 1e-10
 LARGEST = 1e-6
 """Relative residual above which an adjoint is not used."""
 
-CONTRACTION = 0.3
-"""Refinement that reduces the residual by less than this is given up."""
+CONTRACTION, CONTRACTION_AT_HAND = 0.3, 0.03
+"""Refinement that does not reduce the residual to this share is given up; sooner with an earlier
+factorization: a new one costs as much as seven solutions, and each adjoint would need as many."""
 
 MOST_REFINEMENTS = 8
 
@@ -134,7 +135,8 @@ class TangentSystem:
     def _refined(self, right_hand_side: Reals, transposed: bool) -> tuple[Reals, float]:
         """The best solution by refinement with the last factorization, and its residual."""
         scale = inner(right_hand_side, right_hand_side) ** 0.5 or 1.0
-        best, least = np.zeros_like(right_hand_side), np.inf
+        best, least = np.zeros_like(right_hand_side), 1.0
+        enough = CONTRACTION if self.factorizations else CONTRACTION_AT_HAND
         vector, rest = best, right_hand_side
         for _ in range(MOST_REFINEMENTS):
             vector = vector + self.system.solve(rest, transposed)
@@ -142,7 +144,7 @@ class TangentSystem:
             residual = inner(rest, rest) ** 0.5 / scale
             if not residual < least:
                 break
-            slow, best, least = residual > CONTRACTION * least, vector, residual
+            slow, best, least = residual > enough * least, vector, residual
             if least <= ENOUGH or slow:
                 break
         return best, least
