@@ -6,10 +6,12 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numba
 import pytest
 from numba import config
 
 from solver.compilation import njit
+from solver.numerics import first_run
 from solver.numerics.first_run import told_of_compilation
 
 ROOT = Path(__file__).parents[3]
@@ -75,3 +77,29 @@ def test_a_second_process_finds_what_the_first_one_compiled(
         for _ in range(2)
     ]
     assert said == ["True\n", ""]
+
+
+def test_seconds_of_compilation_count_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    times = iter([1.0, 4.0, 10.0, 10.5])
+    monkeypatch.setattr(first_run.time, "perf_counter", lambda: next(times))
+    clock = first_run.CompilationClock()
+    clock.on_start(None)
+    clock.on_start(None)  # a function that the first one calls
+    clock.on_end(None)
+    clock.on_end(None)
+    assert clock.seconds == 3.0
+    clock.on_start(None)
+    clock.on_end(None)
+    assert clock.seconds == 3.5
+
+
+def test_clock_sees_a_function_that_is_compiled() -> None:
+    @numba.njit
+    def twice(x: float) -> float:
+        return 2 * x
+
+    with first_run.compilation_clock() as clock:
+        assert twice(1.5) == 3.0
+        compiled = clock.seconds
+        twice(2.5)
+    assert clock.seconds == compiled > 0

@@ -9,7 +9,9 @@ import pytest
 
 from solver import Mesh, Ogden, Problem, Solution, SolverOptions, Supports, solve
 from solver.errors import SolverError
+from solver.nonlinear.newton import Newton
 from solver.paths.neighbouring import neighbouring
+from solver.sensitivity.gradients import gradients
 
 PRESSURE = 0.05
 EXACT = SolverOptions(tolerance=1e-10, reuse=0)
@@ -92,3 +94,20 @@ def test_moved_mesh_shares_what_does_not_depend_on_positions(cell: Mesh) -> None
     assert moved.edge == pytest.approx(1.5 * cell.edge)
     with pytest.raises(SolverError, match="moved nodes must have the shape"):
         cell.moved(cell.nodes[:-1])
+
+
+def test_what_a_solve_leaves_serves_derivatives_and_the_next_solve(problem: Problem) -> None:
+    left: list[Newton] = []
+    solution = solve(problem, PRESSURE, keep=left.append)
+    anew, kept = gradients(solution), gradients(solution, left[0])
+    for name, gradient in anew.responses.items():
+        scale = np.abs(gradient.nodes).max()
+        assert kept.responses[name].nodes == pytest.approx(gradient.nodes, abs=1e-6 * scale)
+    layout = left[0].assembly.layout
+    found = neighbouring(on(problem, (1.01, 1, 1)), PRESSURE, solution, left[0])
+    assert found.solution is not None and found.newton.assembly.layout is layout
+
+
+def test_keep_must_be_a_function(problem: Problem) -> None:
+    with pytest.raises(SolverError, match="keep must be a function of what a solve leaves"):
+        solve(problem, PRESSURE, keep=1)  # type: ignore[arg-type]
