@@ -1,7 +1,8 @@
 """An evaluation with its computation as plain values and arrays, and back.
 
 What the design decides is not kept but made again: the design itself, which is the one that asks,
-and the problem on each mesh. The CAD solid is built only if a finer mesh is asked for.
+and the problem on each mesh. The CAD solid is built only if a finer mesh is asked for. Factors of
+tangents are not kept.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ from bellows_design.analysis.models import FREE_CELL, HALF, MODELS, AnalysisMode
 from bellows_design.design.design import Design
 from bellows_design.store.values import Arrays, plain, restored
 from solver import Mesh, Problem, Solution
+from solver.nonlinear.newton import Newton
 
 Values = dict[str, Any]
 
@@ -47,6 +49,7 @@ def record_of(evaluation: Evaluation) -> tuple[Values, Arrays]:
         Body: lambda _: None,
         AnalysisModel: lambda model: model.name,
         Problem: lambda problem: places[id(problem)],
+        Newton: lambda _: None,
     }
     problems = [KeptProblem(name, solution.problem.mesh) for name, solution in solved]
     values = {

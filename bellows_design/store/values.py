@@ -104,8 +104,10 @@ def hints_of(kind: type) -> dict[str, Any]:
     from bellows_design.analysis.wall_contact import WallContact
     from bellows_design.design.design import Design
     from solver import Peak, Solution
+    from solver.nonlinear.newton import Newton
 
     known = (
-        AnalysisModel, Computation, Design, Peak, ReachedStrain, Seconds, Solution, WallContact
+        AnalysisModel, Computation, Design, Newton, Peak, ReachedStrain, Seconds, Solution,
+        WallContact,
     )  # fmt: skip
     return get_type_hints(kind, localns={each.__name__: each for each in known})
