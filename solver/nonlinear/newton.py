@@ -23,6 +23,7 @@ from solver.assembly.pressure import enclosed_volume
 from solver.assembly.state import State
 from solver.errors import SolverError
 from solver.linear.interface import SingularMatrix
+from solver.nonlinear.attempts import Attempt, Correction, NoCorrection
 from solver.nonlinear.budget import Budget
 from solver.nonlinear.checkpoint import Checkpoint, Effort
 from solver.nonlinear.events import Event, Kind, Listener
@@ -54,44 +55,6 @@ PRESSURE_ROUNDING = 1e-9
 
 DIVERGED = 1.0
 """Corrections of so many body diagonals count as divergence."""
-
-
-class NoCorrection(Exception):
-    """Newton's method cannot continue; the message says why."""
-
-
-@dataclass(frozen=True)
-class Correction:
-    """One correction of ``state``, where ``equilibrium`` holds: by ``increment``, to ``moved``.
-
-    ``size``: the largest node's, mm; ``pressure_size``: the largest one of the hydrostatic
-    pressure, relative to the initial shear modulus and the pressure itself.
-    """
-
-    state: State
-    equilibrium: Equilibrium
-    increment: State
-    moved: State
-    size: float
-    pressure_size: float
-
-
-@dataclass(frozen=True)
-class Attempt:
-    """Newton's outcome at one load: a state in equilibrium, or why there is none.
-
-    ``imbalance``: the residual left there, relative to that of the load alone. ``direction``: the
-    equilibrium's derivative with respect to the load, if requested. ``touched``: whether there was
-    contact in any iteration. ``guarded``: it is an equilibrium that the caller does not accept.
-    """
-
-    state: State
-    iterations: int
-    failure: str = ""
-    imbalance: float = 0.0
-    direction: State | None = None
-    touched: bool = False
-    guarded: bool = False
 
 
 def pressure_bound(tolerance: float) -> float:

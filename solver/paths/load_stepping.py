@@ -12,11 +12,12 @@ from solver.arrays import Reals
 from solver.assembly.state import State
 from solver.errors import SolverError
 from solver.input_types import check_function, check_number, numbers, shown
+from solver.nonlinear.attempts import Attempt
 from solver.nonlinear.call_checks import check_call, check_initial
 from solver.nonlinear.checkpoint import Checkpoint, Effort
 from solver.nonlinear.events import Guard, Listener
 from solver.nonlinear.loading import Loading
-from solver.nonlinear.newton import Attempt, Newton
+from solver.nonlinear.newton import Newton
 from solver.nonlinear.options import FIRST_STEP, SolverOptions
 from solver.numerics.first_run import compilation_clock
 from solver.paths.outcome import AtStop, Path, Points, solution_of

@@ -15,10 +15,11 @@ import numpy as np
 
 from solver.assembly.state import State
 from solver.errors import SolverError
+from solver.nonlinear.attempts import Attempt, NoCorrection
 from solver.nonlinear.call_checks import check_call
 from solver.nonlinear.linear_system import LinearSystem
 from solver.nonlinear.loading import Loading
-from solver.nonlinear.newton import Attempt, Newton, NoCorrection
+from solver.nonlinear.newton import Newton
 from solver.nonlinear.options import SolverOptions
 from solver.paths.outcome import Path, solution_of
 from solver.problem.problem import Problem

@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 
 from solver.assembly.state import State
-from solver.nonlinear.newton import Attempt, Newton
+from solver.nonlinear.attempts import Attempt
+from solver.nonlinear.newton import Newton
 from solver.paths.arc_length import bifurcation_near, limit_ahead
 from solver.paths.limits import Limit
 from solver.paths.outcome import Path, Points

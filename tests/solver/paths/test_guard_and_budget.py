@@ -9,9 +9,10 @@ import pytest
 
 from solver import Event, Mesh, Ogden, Problem, SolverOptions, Supports, inflate, solve
 from solver.assembly.state import State
+from solver.nonlinear.attempts import Attempt
 from solver.nonlinear.events import Guard
 from solver.nonlinear.loading import Loading
-from solver.nonlinear.newton import Attempt, Newton
+from solver.nonlinear.newton import Newton
 from solver.paths import stopping
 from solver.paths.outcome import figures
 from solver.paths.step_control import StepControl
