@@ -18,9 +18,10 @@ from bellows_design.analysis.computation import Seconds
 from bellows_design.analysis.error_estimate import ErrorEstimate
 from bellows_design.analysis.evaluate import evaluate, evaluation_of
 from bellows_design.analysis.models import UNIT_CELL
+from bellows_design.benchmark import neighbours
 from bellows_design.benchmark import study as benchmark
 from bellows_design.benchmark.rates import fitted_exponent, observed_orders
-from bellows_design.benchmark.reference import Reference
+from bellows_design.benchmark.reference import Reference, reference_of
 from bellows_design.benchmark.series import Level, Series, TrueErrors, Work, finest_of
 from bellows_design.benchmark.study import Study, computations
 from bellows_design.machine import Machine, machine
@@ -154,6 +155,7 @@ ONE_BUBBLE = with_overrides(
 
 def test_a_real_study_counts_what_each_mesh_takes(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(benchmark, "warm_up", lambda *_: None)
+    monkeypatch.setattr(benchmark, "neighbour_rows", lambda *_: ())
     nowhere = Path(__file__).parent / "no such file"
     found = benchmark.study(ONE_BUBBLE, ["unit-cell", "unit-cell"], 2, references=nowhere)
     (cell,) = found.series
@@ -165,7 +167,7 @@ def test_a_real_study_counts_what_each_mesh_takes(monkeypatch: pytest.MonkeyPatc
     assert first.stages.geometry > 0 and second.stages.geometry == 0
     assert second.so_far.total == pytest.approx(first.stages.total + second.stages.total)
     assert cell.ends is not None
-    solving = sum(w.solver_seconds for w in (first.work, second.work, cell.ends))
+    solving = sum(w.solver_seconds for w in (first.work, second.work))  # the ends beside them
     assert second.so_far.solve >= solving  # besides solving: transfer, events
     assert first.peak_memory_mib is None or first.peak_memory_mib > 50
     assert first.estimate == ErrorEstimate() and second.estimate.bending_angle_percent
@@ -363,3 +365,19 @@ def test_a_plot_of_a_single_mesh_without_errors_is_drawn_too(tmp_path: Path) -> 
     alone = series(LEVELS[0], reference=finest_of("unit-cell", LEVELS[:1]))
     plot_benchmark(made_study(alone), tmp_path / "alone.png")
     assert (tmp_path / "alone.png").stat().st_size > 10_000
+
+
+@pytest.mark.slow
+def test_neighbours_are_measured_against_the_same_reference(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(neighbours, "SHARES", (0.02,))
+    design = load_design("prototype_2")
+    reference = reference_of(design)
+    assert reference is not None
+    (row,) = neighbours.neighbour_rows(design, reference)
+    assert row.share == 0.02 and not row.fallback and row.steps == 1
+    assert 0 < row.factorizations <= row.newton_iterations
+    for error, estimate in zip(astuple(row.errors), astuple(row.estimate), strict=True):
+        assert error is not None and estimate is not None
+        assert error <= estimate
