@@ -20,11 +20,10 @@ from bellows_design.design.variation import (
     kinked,
     led_along,
     parameters,
-    varied,
 )
 from bellows_design.errors import DesignError
 from bellows_design.neighbours.carried import Carried
-from bellows_design.neighbours.equilibrium import Equilibrium
+from bellows_design.neighbours.equilibrium import Equilibrium, unusable
 from bellows_design.neighbours.jumps import CountChange, count_changes
 from bellows_design.neighbours.record import NeighbourEvaluation
 
@@ -131,10 +130,8 @@ def sensitivities(found: Evaluation | NeighbourEvaluation) -> Sensitivities:
 def _equilibrium(found: Evaluation | NeighbourEvaluation) -> Equilibrium:
     from bellows_design.morphing.morpher import Morpher
 
-    if not found.converged or found.contact.void:
-        raise DesignError(
-            f"sensitivities: {found.design.name} did not reach its pressure: {found.message}"
-        )
+    if reason := unusable(found):
+        raise DesignError(f"sensitivities: the state of {found.design.name} has none: {reason}.")
     if isinstance(found, NeighbourEvaluation) and found.neighbourhood is not None:
         return found.neighbourhood.equilibrium(found)
     anchor = found.anchor if isinstance(found, NeighbourEvaluation) else found
@@ -224,12 +221,19 @@ def _by_material(design: Design, gradients: Gradients) -> dict[str, dict[str, fl
 def _material_change(
     design: Design, name: str, value: float
 ) -> tuple[Hyperelastic, Hyperelastic, float]:
-    """Materials ahead and behind in one constant, and the step between them."""
+    """Materials ahead and behind in one constant, and the step between them.
+
+    Bounds of a design's material do not hold for these: it may lie on one.
+    """
     step = MATERIAL_STEP * (abs(value) if ".mu[" in name else max(1.0, abs(value)))
-    ahead, behind = (
-        varied(design, {name: value + sign * step}).material.hyperelastic() for sign in (1, -1)
-    )
-    return ahead, behind, 2 * step
+    field, place = name.removeprefix("material.").removesuffix("]").split("[")
+    before = getattr(design.material, field)
+
+    def law(constant: float) -> Hyperelastic:
+        changed = (*before[: int(place)], constant, *before[int(place) + 1 :])
+        return design.material.model_copy(update={field: changed}).hyperelastic()
+
+    return law(value + step), law(value - step), 2 * step
 
 
 def _unit(parameter: str) -> str:

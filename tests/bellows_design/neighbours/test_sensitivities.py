@@ -6,12 +6,12 @@ from collections.abc import Callable
 
 import pytest
 
-from bellows_design.analysis.models import UNIT_CELL
+from bellows_design.analysis.models import UNIT_CELL, choose
 from bellows_design.design.design import Design
 from bellows_design.design.overrides import with_overrides
 from bellows_design.design.shipped import load_design
 from bellows_design.design.variation import geometric_parameters, parameters, varied
-from bellows_design.evaluation import Evaluation, Neighbourhood
+from bellows_design.evaluation import Evaluation, Neighbourhood, evaluation_of, started
 from bellows_design.morphing.morpher import Morpher
 from bellows_design.neighbours.jumps import count_changes
 from bellows_design.neighbours.sensitivities import (
@@ -160,3 +160,15 @@ def test_the_number_of_bubbles_changes_where_it_is_said_to() -> None:
 def test_a_stated_number_of_bubbles_does_not_change() -> None:
     design = with_overrides(load_design("prototype_2"), ["number_of_bubbles=9"])
     assert count_changes(design) == ()
+
+
+@pytest.mark.slow
+def test_a_material_at_a_bound_of_stability_has_derivatives() -> None:
+    """A Yeoh material without its second term; no design has a negative one for all strains."""
+    table = load_design("finger").model_dump()
+    table["material"] = {"model": "yeoh", "c10": 1.7, "c20": 0.0, "yield_strength": 5.0}
+    design = Design.of(table)
+    found = sensitivities(evaluation_of(started(design, *choose(design))))
+    stiffer = found.of("material.higher[0]").derivatives
+    assert stiffer[ANGLE] < 0
+    assert stiffer[VOLUME] < 0
