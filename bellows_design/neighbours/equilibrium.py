@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from bellows_design.analysis.evaluation import LoadedState
     from bellows_design.morphing.morpher import Morpher
     from solver import Solution
-    from solver.sensitivity.adjoint import Workspace
+    from solver.nonlinear.newton import Newton
 
 
 @dataclass(frozen=True)
@@ -25,7 +25,7 @@ class Equilibrium:
     solution: Solution
     morpher: Morpher
     carried: Carried
-    workspace: Workspace | None = None
+    workspace: Newton | None = None
 
 
 def unusable(found: LoadedState) -> str:

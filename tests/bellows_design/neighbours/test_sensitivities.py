@@ -86,6 +86,30 @@ def test_derivatives_match_central_differences_on_moved_meshes(coarse: Coarse, n
             )
 
 
+@pytest.mark.slow
+def test_derivatives_in_contact_match_central_differences() -> None:
+    """In a vacuum walls touch, where the state must be settled before it has derivatives."""
+    design = with_overrides(load_design("prototype_1"), ["load.pressure=-0.03"])
+    anchor = evaluation_of(started(design, *choose(design)))
+    assert anchor.contact.detected
+    assert not anchor.contact.void
+    found = sensitivities(anchor)
+    morpher = Morpher.of(design, "unit-cell", anchor.computation.finest.problem.mesh)
+    for parameter in ("load.pressure", "bubble_height", "chamber_length"):
+        value = parameters(design)[parameter]
+        ahead, behind = (
+            responses(
+                solved(anchor, morpher, varied(design, {parameter: value * (1 + sign)})),
+                design.bellows.bubble_count,
+            )
+            for sign in (STEP, -STEP)
+        )
+        for key in (ANGLE, VOLUME, STRESS):
+            difference = (ahead[key] - behind[key]) / (2 * STEP * value)
+            slope = found.of(parameter).derivatives[key]
+            assert slope == pytest.approx(difference, rel=1e-3), (parameter, key)
+
+
 def test_scaling_all_lengths_keeps_angle_and_stress(
     anchor: Evaluation, found: Sensitivities
 ) -> None:
