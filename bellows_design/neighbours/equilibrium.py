@@ -10,10 +10,10 @@ from bellows_design.design.design import Design
 from bellows_design.neighbours.carried import Carried
 
 if TYPE_CHECKING:
-    from solver.sensitivity.adjoint import Workspace
-
+    from bellows_design.analysis.evaluation import LoadedState
     from bellows_design.morphing.morpher import Morpher
     from solver import Solution
+    from solver.nonlinear.newton import Newton
 
 
 @dataclass(frozen=True)
@@ -25,4 +25,13 @@ class Equilibrium:
     solution: Solution
     morpher: Morpher
     carried: Carried
-    workspace: Workspace | None = None
+    workspace: Newton | None = None
+
+
+def unusable(found: LoadedState) -> str:
+    """Why nothing can start from a state, without a full stop; '' if it can."""
+    if not found.converged:
+        return found.message.rstrip(".")
+    if found.contact.void:
+        return f"{' and '.join(found.contact.where)} touch, which its model does not keep apart"
+    return ""

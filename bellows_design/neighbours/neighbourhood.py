@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
@@ -12,11 +13,11 @@ from bellows_design.analysis.evaluate import effort, evaluate, loaded_state, mes
 from bellows_design.analysis.evaluation import Evaluation, LoadedState
 from bellows_design.budget import DEFAULT, Budget
 from bellows_design.design.design import Design
-from bellows_design.design.variation import between
+from bellows_design.design.variation import between, same_topology
 from bellows_design.errors import BellowsError, DesignError
 from bellows_design.neighbours.carried import REACH, Carried
 from bellows_design.neighbours.distance import distance
-from bellows_design.neighbours.equilibrium import Equilibrium
+from bellows_design.neighbours.equilibrium import Equilibrium, unusable
 from bellows_design.neighbours.record import NeighbourEvaluation
 from bellows_design.progress import SILENCE, Progress
 from solver.errors import SolverError
@@ -72,10 +73,10 @@ class Neighbourhood:
         """Raises ``DesignError`` if the evaluation did not reach its pressure, or is void."""
         from bellows_design.morphing.morpher import Morpher
 
-        if not anchor.converged or anchor.contact.void:
+        if reason := unusable(anchor):
             raise DesignError(
                 f"near: the evaluation of {anchor.design.name} is no start for a neighbour: "
-                f"{anchor.message}"
+                f"{reason}."
             )
         self.anchor = anchor
         self._carried = Carried.of(anchor)
@@ -124,14 +125,18 @@ class Neighbourhood:
 
     def distance(self, design: Design) -> float:
         """How far a design is from that of the ordinary evaluation; infinite if no neighbour."""
+        if same_topology(self.anchor.design, design, self.anchor.model.name):
+            return math.inf
         return distance(self.anchor.design, design)
 
     def _require_near(self, design: Design) -> None:
         """Raise ``NotReached`` for a design that ends and errors cannot be carried to."""
-        here, there = self.anchor.design.bellows.bubble_count, design.bellows.bubble_count
-        if here != there:
-            raise NotReached(f"it has {there} bubbles instead of {here}")
-        apart = self.distance(design)
+        anchor = self.anchor.design
+        if difference := same_topology(anchor, design, self.anchor.model.name):
+            raise NotReached(f"its body has other faces, {difference}")
+        apart = distance(anchor, design)
+        if math.isinf(apart):
+            raise NotReached("its material follows another law")
         if apart > REACH:
             raise NotReached(
                 f"it is too far away: by {100 * apart:.3g} % in its numbers, above the "
@@ -196,8 +201,8 @@ class Neighbourhood:
         design, solution, peak = way.end.design, way.end.solution, way.end.peak
         apart = self.distance(design)
         cells = loaded_state(self._computation(design, SolvedMesh(solution, peak)))
-        if cells.contact.void:
-            raise NotReached(f"{' and '.join(cells.contact.where)} touch, which is not modelled")
+        if reason := unusable(cells):
+            raise NotReached(reason)
         solutions = [solved.solution for solved in way.solved]
         return NeighbourEvaluation(
             **vars(self._carried.applied(cells, peak, apart)),

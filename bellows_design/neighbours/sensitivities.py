@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterator, Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from bellows_design.analysis.evaluation import Evaluation
@@ -20,11 +20,10 @@ from bellows_design.design.variation import (
     kinked,
     led_along,
     parameters,
-    varied,
 )
 from bellows_design.errors import DesignError
 from bellows_design.neighbours.carried import Carried
-from bellows_design.neighbours.equilibrium import Equilibrium
+from bellows_design.neighbours.equilibrium import Equilibrium, unusable
 from bellows_design.neighbours.jumps import CountChange, count_changes
 from bellows_design.neighbours.record import NeighbourEvaluation
 
@@ -39,6 +38,11 @@ RESPONSES = {ANGLE: "rotation", VOLUME: "volume", STRESS: "peak_stress"}
 MATERIAL_STEP = 1e-4
 """Half of the difference in a constant of the material, relative to it, or to one where it is less.
 """
+
+SETTLED = 1e-9
+"""Last correction, in body diagonals, before derivatives are taken where walls touch. At the usual
+tolerance a few points still touch or part: on Prototype 1's cell in vacuum the volume was right to
+0.04 % and its derivatives wrong by 6 %, those of the stress by 5 to 30 %."""
 
 ENDS_BOUND = 0.06
 """Elasticity of the angle of a unit cell, at most, that the ends are left out of: by 5 % of one
@@ -125,22 +129,43 @@ def sensitivities(found: Evaluation | NeighbourEvaluation) -> Sensitivities:
     """
     began = time.perf_counter()
     at = _equilibrium(found)
+    if found.contact.detected:
+        at = _settled(at)
     return _table(found, at, _gradients(at), began)
 
 
 def _equilibrium(found: Evaluation | NeighbourEvaluation) -> Equilibrium:
     from bellows_design.morphing.morpher import Morpher
 
-    if not found.converged or found.contact.void:
-        raise DesignError(
-            f"sensitivities: {found.design.name} did not reach its pressure: {found.message}"
-        )
+    if reason := unusable(found):
+        raise DesignError(f"sensitivities: the state of {found.design.name} has none: {reason}.")
     if isinstance(found, NeighbourEvaluation) and found.neighbourhood is not None:
         return found.neighbourhood.equilibrium(found)
     anchor = found.anchor if isinstance(found, NeighbourEvaluation) else found
     solution, kept = anchor.computation.finest, anchor.computation.workspace
     morpher = Morpher.of(anchor.design, anchor.model.name, solution.problem.mesh)
     return Equilibrium(anchor.design, anchor.model, solution, morpher, Carried.of(anchor), kept)
+
+
+def _settled(at: Equilibrium) -> Equilibrium:
+    """The same, converged until the points at which walls touch stay the same; see ``SETTLED``.
+
+    Raises ``SolverError`` if Newton's method does not get there.
+    """
+    from solver import SolverOptions, neighbouring
+    from solver.errors import SolverError
+
+    solution = at.solution
+    found = neighbouring(
+        solution.problem,
+        solution.pressure,
+        solution,
+        options=SolverOptions(tolerance=SETTLED, reuse=0.5),
+        at_hand=at.workspace,
+    )
+    if found.solution is None:
+        raise SolverError(f"sensitivities: the state in contact is not settled: {found.failure}.")
+    return replace(at, solution=found.solution, workspace=found.newton)
 
 
 def _gradients(at: Equilibrium) -> Gradients:
@@ -224,12 +249,19 @@ def _by_material(design: Design, gradients: Gradients) -> dict[str, dict[str, fl
 def _material_change(
     design: Design, name: str, value: float
 ) -> tuple[Hyperelastic, Hyperelastic, float]:
-    """Materials ahead and behind in one constant, and the step between them."""
+    """Materials ahead and behind in one constant, and the step between them.
+
+    Bounds of a design's material do not hold for these: it may lie on one.
+    """
     step = MATERIAL_STEP * (abs(value) if ".mu[" in name else max(1.0, abs(value)))
-    ahead, behind = (
-        varied(design, {name: value + sign * step}).material.hyperelastic() for sign in (1, -1)
-    )
-    return ahead, behind, 2 * step
+    field, place = name.removeprefix("material.").removesuffix("]").split("[")
+    before = getattr(design.material, field)
+
+    def law(constant: float) -> Hyperelastic:
+        changed = (*before[: int(place)], constant, *before[int(place) + 1 :])
+        return design.material.model_copy(update={field: changed}).hyperelastic()
+
+    return law(value + step), law(value - step), 2 * step
 
 
 def _unit(parameter: str) -> str:

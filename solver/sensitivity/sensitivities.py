@@ -60,7 +60,8 @@ def sensitivities(
     """Derivatives of responses by geometry, material and pressure, by the adjoint method.
 
     Args:
-        solution: a converged equilibrium.
+        solution: a converged equilibrium; with contact to a tolerance at which the points in
+            contact stay the same, such as 1e-9 (``solver.neighbouring`` goes on from a solution).
         velocities: parameter -> velocity of the undeformed nodes, mm per unit of the parameter.
 
             *Shape:* (n, 3) each.

@@ -3,17 +3,29 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from bellows_design.analysis.error_estimate import ErrorEstimate
+from bellows_design.analysis.models import choose
+from bellows_design.analysis.wall_contact import WallContact
 from bellows_design.design.design import Design
 from bellows_design.design.overrides import with_overrides
 from bellows_design.design.variation import geometric_parameters, varied
 from bellows_design.errors import DesignError
-from bellows_design.evaluation import Evaluation, Neighbourhood, Pool, evaluate
+from bellows_design.evaluation import (
+    Evaluation,
+    Neighbourhood,
+    Pool,
+    evaluate,
+    evaluation_of,
+    started,
+)
 from bellows_design.morphing.morpher import Morpher
 from bellows_design.neighbours.carried import REACH
+from bellows_design.neighbours.sensitivities import sensitivities
 from solver import SolverOptions, solve
 
 Coarse = Callable[[str], Evaluation]
@@ -56,6 +68,24 @@ def test_the_design_itself_is_found_again(anchor: Evaluation, session: Neighbour
     assert found.cavity_volume_mm3 == pytest.approx(anchor.cavity_volume_mm3, rel=1e-4)
 
 
+def test_an_error_that_is_not_known_stays_unknown(session: Neighbourhood) -> None:
+    """After one mesh there is nothing to estimate from."""
+    assert session.anchor.error_estimate == ErrorEstimate(None, None)
+    assert session.evaluate(session.anchor.design).error_estimate == ErrorEstimate(None, None)
+
+
+def test_strain_and_place_of_ends_that_are_stressed_more_are_carried_along(
+    anchor: Evaluation,
+) -> None:
+    peak = replace(anchor.computation.peaks[0], value=2 * anchor.computation.peaks[0].value)
+    ended = evaluation_of(replace(anchor.computation, ends_peak=peak))
+    found = Neighbourhood(ended).evaluate(anchor.design)
+    assert found.max_von_mises_mpa == pytest.approx(ended.max_von_mises_mpa, rel=1e-3)
+    assert found.max_von_mises_position_mm == ended.max_von_mises_position_mm
+    assert found.strain.highest == pytest.approx(ended.strain.highest, rel=1e-3)
+    assert found.strain.lowest == pytest.approx(ended.strain.lowest, rel=1e-3)
+
+
 @pytest.mark.parametrize("seed", range(2))
 def test_a_neighbour_lies_on_the_branch_that_the_load_leads_to(
     anchor: Evaluation, session: Neighbourhood, seed: int
@@ -92,9 +122,10 @@ def test_another_number_of_bubbles_is_evaluated_by_itself(
 
     monkeypatch.setattr("bellows_design.neighbours.neighbourhood.evaluate", ordinary)
     for change, reason in (
-        ("number_of_bubbles=7", "7 bubbles instead of 8"),
-        ("indent=none", "too far away"),
-        ("material=dragon_skin_30", "too far away"),
+        ("number_of_bubbles=7", "other faces, bubbles: 7 instead of 8"),
+        ("indent=none", "other faces, indent: none instead of outside rectangular"),
+        ("material=ninjaflex_yeoh", "another law"),
+        ("material=dragon_skin_30", "another law"),
         (f"load.pressure={0.1 * (1 - 2 * REACH):g}", "too far away"),
     ):
         design = with_overrides(anchor.design, [change])
@@ -171,15 +202,42 @@ def test_pool_starts_from_the_nearest_and_forgets_the_least_used(
     assert [each.anchor.design.name for each in pool._neighbourhoods] == ["prototype_2", "finger"]
 
 
+def test_pool_asks_only_neighbours_with_the_same_faces(coarse: Coarse, anchor: Evaluation) -> None:
+    """Though one with other faces is as near in numbers, or nearer."""
+    other = with_overrides(anchor.design, ["number_of_bubbles=7", "bubble_width=20.1"])
+    seven = evaluation_of(started(other, *choose(other)))
+    pool = Pool()
+    pool.add(anchor)
+    pool.add(seven)
+    for start in (seven, anchor, seven):
+        design = varied(start.design, {"bubble_width": 20.05})
+        found = pool.evaluate(design)
+        assert not found.fallback and found.anchor is start
+
+
+def test_what_has_no_start_says_why(anchor: Evaluation) -> None:
+    broken = replace(anchor, converged=False, message="reached 0.05 of 0.1 MPa.")
+    touching = replace(anchor, contact=WallContact(True, 1.0, False, where=("inner walls",)))
+    for evaluation, why in (
+        (broken, "reached 0.05 of 0.1 MPa"),
+        (touching, "inner walls touch, which its model does not keep apart"),
+    ):
+        with pytest.raises(DesignError, match=rf"no start for a neighbour: {why}\.$"):
+            evaluate(anchor.design, near=evaluation)
+        with pytest.raises(DesignError, match=rf"sensitivities: .* {why}\.$"):
+            sensitivities(evaluation)
+
+
 def test_estimated_errors_grow_with_the_distance(
     coarse: Coarse,
 ) -> None:
     anchor = coarse("prototype_2")
-    session = Neighbourhood(anchor)
+    session = Neighbourhood(replace(anchor, error_estimate=ErrorEstimate(1.0, 5.0)))
     found = [
         session.evaluate(varied(anchor.design, {"bubble_width": width})).error_estimate
         for width in (20.0, 20.4, 20.8)
     ]
+    assert found[0].bending_angle_percent == pytest.approx(1.0, rel=1e-3)
     angles = [each.bending_angle_percent for each in found]
     stresses = [each.max_von_mises_percent for each in found]
     assert angles == sorted(angles) and angles[-1] > angles[0]

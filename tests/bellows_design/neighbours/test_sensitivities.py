@@ -8,12 +8,12 @@ from dataclasses import replace
 import pytest
 
 from bellows_design.analysis.computation import SolvedMesh
-from bellows_design.analysis.models import UNIT_CELL
+from bellows_design.analysis.models import UNIT_CELL, choose
 from bellows_design.design.design import Design
 from bellows_design.design.overrides import with_overrides
 from bellows_design.design.shipped import load_design
 from bellows_design.design.variation import geometric_parameters, parameters, varied
-from bellows_design.evaluation import Evaluation, Neighbourhood, evaluation_of
+from bellows_design.evaluation import Evaluation, Neighbourhood, evaluation_of, started
 from bellows_design.morphing.morpher import Morpher
 from bellows_design.neighbours.jumps import count_changes
 from bellows_design.neighbours.sensitivities import (
@@ -97,6 +97,30 @@ def test_derivatives_match_central_differences_on_moved_meshes(coarse: Coarse, n
             )
 
 
+@pytest.mark.slow
+def test_derivatives_in_contact_match_central_differences() -> None:
+    """In a vacuum walls touch, where the state must be settled before it has derivatives."""
+    design = with_overrides(load_design("prototype_1"), ["load.pressure=-0.03"])
+    anchor = evaluation_of(started(design, *choose(design)))
+    assert anchor.contact.detected
+    assert not anchor.contact.void
+    found = sensitivities(anchor)
+    morpher = Morpher.of(design, "unit-cell", anchor.computation.finest.problem.mesh)
+    for parameter in ("load.pressure", "bubble_height", "chamber_length"):
+        value = parameters(design)[parameter]
+        ahead, behind = (
+            responses(
+                solved(anchor, morpher, varied(design, {parameter: value * (1 + sign)})),
+                design.bellows.bubble_count,
+            )
+            for sign in (STEP, -STEP)
+        )
+        for key in (ANGLE, VOLUME, STRESS):
+            difference = (ahead[key] - behind[key]) / (2 * STEP * value)
+            slope = found.of(parameter).derivatives[key]
+            assert slope == pytest.approx(difference, rel=1e-3), (parameter, key)
+
+
 def test_scaling_all_lengths_keeps_angle_and_stress(
     anchor: Evaluation, found: Sensitivities
 ) -> None:
@@ -171,3 +195,15 @@ def test_the_number_of_bubbles_changes_where_it_is_said_to() -> None:
 def test_a_stated_number_of_bubbles_does_not_change() -> None:
     design = with_overrides(load_design("prototype_2"), ["number_of_bubbles=9"])
     assert count_changes(design) == ()
+
+
+@pytest.mark.slow
+def test_a_material_at_a_bound_of_stability_has_derivatives() -> None:
+    """A Yeoh material without its second term; no design has a negative one for all strains."""
+    table = load_design("finger").model_dump()
+    table["material"] = {"model": "yeoh", "c10": 1.7, "c20": 0.0, "yield_strength": 5.0}
+    design = Design.of(table)
+    found = sensitivities(evaluation_of(started(design, *choose(design))))
+    stiffer = found.of("material.higher[0]").derivatives
+    assert stiffer[ANGLE] < 0
+    assert stiffer[VOLUME] < 0
