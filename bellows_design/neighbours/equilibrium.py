@@ -10,10 +10,9 @@ from bellows_design.design.design import Design
 from bellows_design.neighbours.carried import Carried
 
 if TYPE_CHECKING:
-    from solver.sensitivity.adjoint import Workspace
-
     from bellows_design.morphing.morpher import Morpher
     from solver import Solution
+    from solver.sensitivity.adjoint import Workspace
 
 
 @dataclass(frozen=True)
