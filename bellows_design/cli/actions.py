@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from bellows_design.cli.answer import DONE, NOT_SOLVED, REFUSED, Answer, unwritten
+from bellows_design.cli.answer import BAD_INPUT, DONE, NOT_SOLVED, REFUSED, Answer, unwritten
 from bellows_design.cli.output_files import require_file, require_folder, require_plot
 from bellows_design.cli.surroundings.environment import require_working_folder
 from bellows_design.cli.surroundings.memory import (
@@ -243,7 +243,6 @@ def cache(clear: bool) -> Answer:
     require_working_folder()
     store = Store.usual()
     before = store.holdings()
-    if clear:
-        store.clear()
-    content = before.to_dict() | {"cleared": clear}
-    return Answer(content, cache_table(before, clear))
+    left = store.clear() if clear else 0
+    content = before.to_dict() | {"cleared": clear and not left}
+    return Answer(content, cache_table(before, clear, left), BAD_INPUT if left else DONE)

@@ -105,6 +105,22 @@ def test_the_cache_says_what_it_holds_and_is_cleared(
     assert "–" in bellows("cache")[1]
 
 
+def test_what_cannot_be_removed_is_said(
+    bellows: Bellows, computed: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(*_: object, **__: object) -> None:
+        raise PermissionError(13, "Permission denied")
+
+    bellows("evaluate", *SMALL)
+    with monkeypatch.context() as read_only:
+        read_only.setattr(Path, "unlink", refuse)
+        status, out, _ = bellows("cache", "--clear", "--json")
+        assert status == 2 and json.loads(out)["cleared"] is False
+        assert "1 could not be removed" in bellows("cache", "--clear")[1]
+    status, out, _ = bellows("cache", "--clear", "--json")
+    assert status == 0 and json.loads(out)["cleared"] is True
+
+
 @pytest.mark.slow
 def test_an_approval_is_the_same_from_a_kept_evaluation(bellows: Bellows, tmp_path: Path) -> None:
     design = ("finger", "--set", "length=18", "--set", "number_of_bubbles=2")
