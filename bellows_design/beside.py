@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -15,6 +16,10 @@ Result = TypeVar("Result")
 
 POLL_SECONDS = 0.2
 """Interval, s, at which a waiting caller checks for interrupts that do not end the wait."""
+
+
+INTERRUPTED_SECONDS = 2.0
+"""s. So long an interrupt waits at most for the other thread to end."""
 
 
 class Abandoned(Exception):
@@ -66,11 +71,12 @@ class Beside(Generic[Result]):
         """Let the thread end at its next step, without a result."""
         self._unwanted.set()
 
-    def wait(self) -> None:
-        """Until the thread has ended."""
-        assert self._thread is not None
-        while self._thread.is_alive():
-            self._thread.join(POLL_SECONDS)
+    def wait(self, seconds: float = math.inf) -> None:
+        """Until the thread, if there is one, has ended; ``seconds`` at most."""
+        deadline = time.perf_counter() + seconds
+        while self.running and (rest := deadline - time.perf_counter()) > 0:
+            assert self._thread is not None
+            self._thread.join(min(rest, POLL_SECONDS))
 
     def _run(self) -> None:
         try:
@@ -102,17 +108,21 @@ class _Unshown:
 def beside(compute: Callable[[Progress], Result], at_once: bool) -> Iterator[Beside[Result]]:
     """``compute`` in a thread for the length of the block if ``at_once``, else when asked for.
 
-    At the end of the block a result that was not asked for is abandoned; after an exception the
-    block does not wait for that.
+    At the end of the block a result that was not asked for is abandoned, and its thread has ended:
+    one that works on while the program ends makes libraries in C crash. An interrupt does not wait
+    for that longer than ``INTERRUPTED_SECONDS``.
     """
     other = Beside(compute)
     if at_once:
         other.begin()
     try:
         yield other
-    except BaseException:
-        other.abandon()
+    except BaseException as error:
+        _end(other, math.inf if isinstance(error, Exception) else INTERRUPTED_SECONDS)
         raise
+    _end(other, math.inf)
+
+
+def _end(other: Beside[Result], seconds: float) -> None:
     other.abandon()
-    if other.begun:
-        other.wait()
+    other.wait(seconds)

@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from bellows_design.cli.answer import DONE, NOT_SOLVED, REFUSED, Answer, unwritten
+from bellows_design.cli.answer import BAD_INPUT, DONE, NOT_SOLVED, REFUSED, Answer, unwritten
 from bellows_design.cli.output_files import require_file, require_folder, require_plot
 from bellows_design.cli.surroundings.environment import require_working_folder
 from bellows_design.cli.surroundings.memory import (
@@ -19,7 +19,7 @@ from bellows_design.cli.surroundings.memory import (
     GEOMETRY,
     require_address_space,
 )
-from bellows_design.errors import DesignError
+from bellows_design.errors import BellowsError, DesignError
 from bellows_design.validation.quoting import quoted
 
 if TYPE_CHECKING:
@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from bellows_design.cli.templates import Kind
     from bellows_design.neighbours.sensitivities import Sensitivities
     from bellows_design.progress import Progress
+    from bellows_design.store import Store
 
 
 def list_designs() -> Answer:
@@ -121,33 +122,50 @@ def evaluate(
     require_file(vtu, ".vtu")
     budget = limits.budget()
     from bellows_design.analysis import evaluate as analysis
-    from bellows_design.store import Store, evaluated
+    from bellows_design.store import evaluated
 
-    store = Store.usual() if cached else None
     with _solving() as progress:
+        store = _store(progress) if cached else None
         found = evaluated(
             chosen, model, accuracy, pressures, progress, budget, store=store, keep=derivatives
         )
         writers = () if vtu is None else (lambda: analysis.write_vtu(found, vtu),)
         failed = unwritten(*writers)
-        changes = _sensitivities(found, progress) if derivatives else None
+        changes = _sensitivities(found, progress) if derivatives else ""
     status = DONE if found.converged else NOT_SOLVED
     content = found.to_dict() | {"from_cache": found.from_cache or None}
     tables = list(evaluation_table(found))
     if derivatives:
-        content["sensitivities"] = None if changes is None else changes.to_dict()
-        tables += [] if changes is None else sensitivities_table(changes)
+        content["sensitivities"] = None if isinstance(changes, str) else changes.to_dict()
+        tables += sensitivities_table(changes)
     return Answer(content, tables, status, failed)
 
 
-def _sensitivities(found: Evaluation, progress: Progress) -> Sensitivities | None:
-    """Those of an evaluation; None where it is no state to take them at."""
-    from bellows_design.neighbours.sensitivities import sensitivities
+def _store(progress: Progress) -> Store | None:
+    """Where this user's results are kept; None, and a note, if there is no place for them."""
+    from bellows_design.store import NoPlace, Store
 
-    if not found.converged or found.contact.void:
+    try:
+        return Store.usual()
+    except NoPlace as error:
+        progress.note(f"the result is not kept: {error}")
         return None
+
+
+def _sensitivities(found: Evaluation, progress: Progress) -> Sensitivities | str:
+    """Those of an evaluation, or why there are none: the evaluation is an answer all the same."""
+    from bellows_design.neighbours.sensitivities import sensitivities
+    from solver.errors import SolverError
+
+    if not found.converged:
+        return "the pressure was not reached"
+    if found.contact.void:
+        return "walls run through each other"
     progress.stage("sensitivities")
-    return sensitivities(found)
+    try:
+        return sensitivities(found)
+    except (BellowsError, SolverError) as error:
+        return str(error)
 
 
 def run(options: DesignOptions, output: Path, limits: BudgetOptions, cached: bool) -> Answer:
@@ -160,10 +178,8 @@ def run(options: DesignOptions, output: Path, limits: BudgetOptions, cached: boo
     chosen = options.load(rename=True)
     chosen.profile()
     budget = limits.budget()
-    from bellows_design.store import Store
-
-    store = Store.usual() if cached else None
     with _solving() as progress:
+        store = _store(progress) if cached else None
         outcome = pipeline.run(chosen, output, progress, budget, store)
     refused = REFUSED if outcome.evaluation.converged else NOT_SOLVED
     status = DONE if outcome.verdict.approved else refused
@@ -224,9 +240,9 @@ def cache(clear: bool) -> Answer:
     from bellows_design.reports.cache import cache_table
     from bellows_design.store import Store
 
+    require_working_folder()
     store = Store.usual()
     before = store.holdings()
-    if clear:
-        store.clear()
-    content = before.to_dict() | {"cleared": clear}
-    return Answer(content, cache_table(before, clear))
+    left = store.clear() if clear else 0
+    content = before.to_dict() | {"cleared": clear and not left}
+    return Answer(content, cache_table(before, clear, left), BAD_INPUT if left else DONE)

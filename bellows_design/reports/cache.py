@@ -17,12 +17,13 @@ if TYPE_CHECKING:
 MIB = 2**20
 
 
-def cache_table(holdings: Holdings, cleared: bool) -> Sequence[RenderableType]:
-    """Folder, number, size and age; and whether all that was removed."""
+def cache_table(holdings: Holdings, cleared: bool, left: int) -> Sequence[RenderableType]:
+    """Folder, number, size and age; and, if it was to be ``cleared``, how much was ``left``."""
     table = Table(box=SIMPLE, show_header=False)
     for name, value in _rows(holdings).items():
         table.add_row(name, Text(value))
-    return [table, *([Text("All of it was removed.")] if cleared else [])]
+    removed = f"{left} could not be removed." if left else "All of it was removed."
+    return [table, *([Text(removed)] if cleared else [])]
 
 
 def _rows(holdings: Holdings) -> dict[str, str]:

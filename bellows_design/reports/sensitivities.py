@@ -16,38 +16,45 @@ if TYPE_CHECKING:
     from bellows_design.neighbours.jumps import CountChange
     from bellows_design.neighbours.sensitivities import Sensitivities, Sensitivity
 
-COLUMNS = ((ANGLE, "°"), (STRESS, "MPa"), (VOLUME, "mm³"))
+COLUMNS = ((ANGLE, "angle", "°"), (STRESS, "stress", "MPa"), (VOLUME, "volume", "mm³"))
 
 
-def sensitivities_table(found: Sensitivities) -> Sequence[RenderableType]:
-    """Elasticities first, derivatives beside them, the strongest parameter of the angle on top."""
-    table = Table(
-        title="sensitivities: % per % of the parameter, and per unit of it",
-        title_justify="left",
-        box=SIMPLE,
+def sensitivities_table(found: Sensitivities | str) -> Sequence[RenderableType]:
+    """Elasticities, then derivatives, the strongest parameter of the angle on top.
+
+    Or one line, if ``found`` is why there are none.
+    """
+    if isinstance(found, str):
+        return [Text(f"no sensitivities: {found}")]
+    rows = sorted(found.parameters, key=_strength, reverse=True)
+    elasticities = _empty(
+        "sensitivities, % per % of the parameter", "value", *(name for _, name, _ in COLUMNS)
     )
-    for heading in ("parameter", "value", *(text for _, unit in COLUMNS for text in ("%/%", unit))):
-        table.add_column(heading, justify="left" if heading == "parameter" else "right")
-    for row in sorted(found.parameters, key=_strength, reverse=True):
-        table.add_row(*_cells(row))
-    notes = [Text(text) for text in _notes(found)]
-    return [table, *notes, *(Text(f"warning: {w}", style="yellow") for w in found.warnings)]
+    derivatives = _empty(
+        "sensitivities per unit of the parameter",
+        "per",
+        *(f"{name}, {unit}" for _, name, unit in COLUMNS),
+    )
+    for row in rows:
+        relative = (_elasticity(row.elasticities[name]) for name, *_ in COLUMNS)
+        absolute = (f"{row.derivatives[name]:+.4g}" for name, *_ in COLUMNS)
+        elasticities.add_row(row.parameter, f"{row.value:.4g} {row.unit}".strip(), *relative)
+        derivatives.add_row(row.parameter, row.unit or "1", *absolute)
+    warnings = [Text(f"warning: {warning}", style="yellow") for warning in found.warnings]
+    return [elasticities, derivatives, *(Text(note) for note in _notes(found)), *warnings]
+
+
+def _empty(title: str, *headings: str) -> Table:
+    """A table without rows; narrow enough for 80 columns, where every name shall show in full."""
+    table = Table(title=title, title_justify="left", box=SIMPLE)
+    table.add_column("parameter", no_wrap=True)
+    for heading in headings:
+        table.add_column(heading, justify="right", no_wrap=True)
+    return table
 
 
 def _strength(row: Sensitivity) -> float:
     return abs(row.elasticities[ANGLE] or 0.0)
-
-
-def _cells(row: Sensitivity) -> list[str]:
-    pairs = [
-        (_elasticity(row.elasticities[name]), f"{row.derivatives[name]:+.4g}")
-        for name, _ in COLUMNS
-    ]
-    return [
-        row.parameter,
-        f"{row.value:.4g} {row.unit}".strip(),
-        *(x for pair in pairs for x in pair),
-    ]
 
 
 def _elasticity(value: float | None) -> str:

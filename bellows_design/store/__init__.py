@@ -13,17 +13,17 @@ from solver.lazy_names import imported_when_asked_for
 if TYPE_CHECKING:
     from bellows_design.store.key import Key
     from bellows_design.store.lookup import evaluated
-    from bellows_design.store.place import cache_folder
+    from bellows_design.store.place import NoPlace, cache_folder
     from bellows_design.store.store import Holdings, Store
 
-__all__ = ["Holdings", "Key", "Store", "cache_folder", "evaluated"]
+__all__ = ["Holdings", "Key", "NoPlace", "Store", "cache_folder", "evaluated"]
 
 __getattr__ = imported_when_asked_for(
     __name__,
     {
         "key": ("Key",),
         "lookup": ("evaluated",),
-        "place": ("cache_folder",),
+        "place": ("NoPlace", "cache_folder"),
         "store": ("Holdings", "Store"),
     },
 )

@@ -50,7 +50,7 @@ def key_of(
         "model": model,
         "accuracy_percent": None if accuracy_percent is None else float(accuracy_percent),
         "pressures_mpa": sorted(float(pressure) for pressure in pressures),
-        "budget": asdict(budget),
+        "budget": {name: float(limit) for name, limit in asdict(budget).items()},
         "further_meshes": further_meshes,
     }
     return Key(plain(asked), present_surroundings())

@@ -17,6 +17,7 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from pathlib import Path
+from stat import S_ISREG
 from typing import TYPE_CHECKING, Any
 
 from bellows_design.files.atomic import remove_leftovers
@@ -136,18 +137,16 @@ class Store:
             max(times, default=None),
         )
 
-    def clear(self) -> Holdings:
-        """Remove all results of this kind, and nothing else; what there was."""
-        before = self.holdings()
-        for file in self._files():
-            self._remove(file)
+    def clear(self) -> int:
+        """Remove all results of this kind, and nothing else; how many could not be removed."""
+        left = sum(not self._remove(file) for file in self._files())
         for folder in self._folders():
             remove_leftovers(folder)
             with suppress(OSError):  # another process is at work in it
                 folder.rmdir()
         with suppress(OSError):
             (self.folder / self.kind).rmdir()
-        return before
+        return left
 
     def _path(self, key: Key) -> Path:
         return self.folder / self.kind / key.surroundings / f"{key.text}.npz"
@@ -159,14 +158,17 @@ class Store:
         for file in files:
             if excess <= 0:
                 break
-            self._remove(file)
-            excess -= file.size
+            excess -= file.size if self._remove(file) else 0
 
-    def _remove(self, file: _File) -> None:
-        with suppress(OSError):  # another process was faster, or is reading it on Windows
-            file.path.unlink()
-        with suppress(OSError):  # the last one of its surroundings
+    def _remove(self, file: _File) -> bool:
+        """Remove a result, and the last one's folder; whether it is gone."""
+        try:
+            file.path.unlink(missing_ok=True)  # another process may be faster
+        except OSError:  # it may be reading it on Windows
+            return False
+        with suppress(OSError):  # others of its surroundings
             file.path.parent.rmdir()
+        return True
 
     def _files(self) -> list[_File]:
         return [file for folder in self._folders() for file in _files_in(folder)]
@@ -195,7 +197,8 @@ def _files_in(folder: Path) -> Iterator[_File]:
         if _is(path, _KEY):
             with suppress(OSError):  # another process removed it
                 status = path.stat()
-                yield _File(path, status.st_size, status.st_mtime)
+                if S_ISREG(status.st_mode):
+                    yield _File(path, status.st_size, status.st_mtime)
 
 
 def _entries(folder: Path) -> list[Path]:

@@ -28,12 +28,16 @@ def told_of_compilation(tell: Callable[[bool], None]) -> Iterator[None]:
 
 
 class CompilationClock(Listener):
-    """Seconds in which functions were compiled, in any thread, each second once."""
+    """Seconds in which functions were compiled, in any thread, each second once.
+
+    numba compiles one function at a time, with those that it calls. One that another thread was
+    compiling when the clock was made counts from then on.
+    """
 
     def __init__(self) -> None:
         self.seconds = 0.0
         self._depth = 0
-        self._began = 0.0
+        self._began = time.perf_counter()
         self._lock = threading.Lock()
 
     def on_start(self, event: Any) -> None:
@@ -46,9 +50,11 @@ class CompilationClock(Listener):
     def on_end(self, event: Any) -> None:
         """It is compiled."""
         with self._lock:
-            self._depth -= 1
+            self._depth = max(0, self._depth - 1)
             if self._depth == 0:
-                self.seconds += time.perf_counter() - self._began
+                now = time.perf_counter()
+                self.seconds += now - self._began
+                self._began = now
 
 
 @contextmanager

@@ -53,5 +53,32 @@ def test_what_nobody_needs_ends_at_its_next_step() -> None:
     assert ended.is_set() and not other.running
     ended.clear()
     with pytest.raises(KeyboardInterrupt), beside(endless, at_once=True):
-        raise KeyboardInterrupt  # as of Ctrl-C in the block: nobody waits
+        raise KeyboardInterrupt  # as of Ctrl-C in the block
     assert ended.wait(LONG)
+
+
+def test_no_error_leaves_the_thread_at_work() -> None:
+    """It would work on in libraries that the end of the program takes from under it."""
+
+    def one_long_step(progress: Progress) -> None:
+        time.sleep(0.5)
+        progress.stage("next")
+
+    with pytest.raises(ValueError, match="of the caller"), beside(one_long_step, True) as other:
+        raise ValueError("an error of the caller")
+    assert not other.running
+
+
+def test_an_interrupt_does_not_wait_for_a_long_step(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("bellows_design.beside.INTERRUPTED_SECONDS", 0.01)
+    step = threading.Event()
+
+    def stuck(_: Progress) -> None:
+        step.wait(LONG)
+
+    with pytest.raises(KeyboardInterrupt), beside(stuck, True) as other:
+        raise KeyboardInterrupt
+    assert other.running
+    step.set()
+    other.wait()
+    assert not other.running

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+import real_command
 from kept import LOW_BUBBLES
 
 from bellows_design.analysis.evaluation import Evaluation
@@ -60,6 +61,26 @@ def test_a_cache_that_cannot_be_written_is_a_note_on_stderr(
     assert "the result is not kept: " in err and "/dev/null" in err
 
 
+def test_without_a_home_folder_there_is_an_answer_but_no_cache(
+    bellows: Bellows, computed: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("BELLOWS_CACHE", "~nobody-of-this-name")
+    status, out, err = bellows("evaluate", *SMALL, "--json")
+    assert status == 0 and json.loads(out)["from_cache"] is None
+    assert "the result is not kept: " in err
+    status, _, err = bellows("cache")
+    assert status == 2 and err.count("home folder is not known") == 1 and "internal" not in err
+
+
+def test_in_a_deleted_folder_the_cache_is_one_sentence(tmp_path: Path) -> None:
+    """MKL, which says what results are usable, would end the process."""
+    gone = tmp_path / "gone"
+    gone.mkdir()
+    ended = real_command.bellows("cache", limits=f"rmdir {gone};", folder=gone)
+    assert ended.status == 2 and ended.err.count("\n") == 1
+    assert "the working folder was deleted" in ended.err
+
+
 def test_paraview_s_file_is_written_from_what_is_kept(
     bellows: Bellows, computed: list[str], tmp_path: Path
 ) -> None:
@@ -82,6 +103,22 @@ def test_the_cache_says_what_it_holds_and_is_cleared(
     assert status == 0 and str(own_cache) in out and "removed" in out
     assert json.loads(bellows("cache", "--json")[1])["results"] == 0
     assert "–" in bellows("cache")[1]
+
+
+def test_what_cannot_be_removed_is_said(
+    bellows: Bellows, computed: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(*_: object, **__: object) -> None:
+        raise PermissionError(13, "Permission denied")
+
+    bellows("evaluate", *SMALL)
+    with monkeypatch.context() as read_only:
+        read_only.setattr(Path, "unlink", refuse)
+        status, out, _ = bellows("cache", "--clear", "--json")
+        assert status == 2 and json.loads(out)["cleared"] is False
+        assert "1 could not be removed" in bellows("cache", "--clear")[1]
+    status, out, _ = bellows("cache", "--clear", "--json")
+    assert status == 0 and json.loads(out)["cleared"] is True
 
 
 @pytest.mark.slow

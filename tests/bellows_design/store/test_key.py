@@ -7,10 +7,11 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 from kept import key, small
 
-from bellows_design.budget import DEFAULT
+from bellows_design.budget import DEFAULT, Budget
 from bellows_design.store.key import digest
 from bellows_design.store.surroundings import settings, sources_hash, surroundings
 
@@ -44,6 +45,14 @@ def test_labels_and_the_order_of_pressures_decide_nothing() -> None:
     assert key(small("name=another", "description=words")) == USUAL
     assert key(small("material.source=somewhere")) == USUAL
     assert key(small(), pressures=(0.01, 0.02)) == key(small(), pressures=(0.02, 0.01))
+
+
+def test_the_same_number_of_any_type_is_the_same_question() -> None:
+    """Studies take their numbers from arrays."""
+    whole, single = Budget(2, 100, 200), Budget(np.float32(2), np.int64(100), np.float64(200))
+    assert key(small(), budget=whole) == key(small(), budget=single)
+    assert key(small(), accuracy=5) == key(small(), accuracy=np.float32(5))
+    assert key(small(), pressures=np.array([0.01])) == key(small(), pressures=(0.01,))
 
 
 def test_a_changed_module_of_ours_is_noticed(tmp_path: Path) -> None:

@@ -80,7 +80,7 @@ def test_a_second_process_finds_what_the_first_one_compiled(
 
 
 def test_seconds_of_compilation_count_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    times = iter([1.0, 4.0, 10.0, 10.5])
+    times = iter([0.0, 1.0, 4.0, 10.0, 10.5])
     monkeypatch.setattr(first_run.time, "perf_counter", lambda: next(times))
     clock = first_run.CompilationClock()
     clock.on_start(None)
@@ -91,6 +91,20 @@ def test_seconds_of_compilation_count_once(monkeypatch: pytest.MonkeyPatch) -> N
     clock.on_start(None)
     clock.on_end(None)
     assert clock.seconds == 3.5
+
+
+def test_a_clock_made_while_another_thread_compiles_counts_on(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Two solves side by side, the second begun within a compilation of the first one's."""
+    times = iter([10.0, 12.0, 20.0, 23.0])
+    monkeypatch.setattr(first_run.time, "perf_counter", lambda: next(times))
+    clock = first_run.CompilationClock()
+    clock.on_end(None)
+    assert clock.seconds == 2.0
+    clock.on_start(None)
+    clock.on_end(None)
+    assert clock.seconds == 5.0
 
 
 def test_clock_sees_a_function_that_is_compiled() -> None:
