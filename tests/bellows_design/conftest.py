@@ -45,6 +45,7 @@ def stub_stages(monkeypatch: pytest.MonkeyPatch, cube_part: Part) -> Callable[..
             progress: Progress = SILENCE,
             budget: Budget = DEFAULT,
             open_question: Any = None,
+            keep: bool = False,
         ) -> Any:
             progress.stage("solve")
             if isinstance(evaluation, BaseException):

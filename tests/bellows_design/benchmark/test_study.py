@@ -197,7 +197,7 @@ def test_the_json_contract() -> None:
     cell = replace(series(*LEVELS), ends=Work(500, 3000, 9, 8, 0.75))
     study = replace(made_study(cell), machine=machine())
     content = json.loads(json.dumps(study.to_dict(), allow_nan=False))
-    keys = {"design", "digest", "pressure_mpa", "converged", "models", "machine"}
+    keys = {"design", "digest", "pressure_mpa", "converged", "models", "neighbours", "machine"}
     assert content.keys() == keys
     model = content["models"][0]
     assert model["reference"]["recipe"] and model["ends"]["factorizations"] > 0

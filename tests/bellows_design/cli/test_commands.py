@@ -244,7 +244,7 @@ def test_a_range_of_pressures_gives_a_curve_up_to_its_end(
         for pressure in (0.02, 0.04, 0.05)
     )
 
-    def evaluate(design: Design, *arguments: object, budget: Budget) -> FakeEvaluation:
+    def evaluate(design: Design, *arguments: object, budget: Budget, keep: bool) -> FakeEvaluation:
         asked.append((design.load.pressure, *arguments[:-1]))
         return FakeEvaluation(curve=readings)
 
@@ -263,7 +263,7 @@ def test_without_a_pressure_the_designs_own_is_taken_and_the_model_chosen(
 ) -> None:
     asked: list[tuple[object, ...]] = []
 
-    def evaluate(design: Design, *arguments: object, budget: Budget) -> FakeEvaluation:
+    def evaluate(design: Design, *arguments: object, budget: Budget, keep: bool) -> FakeEvaluation:
         asked.append((design.load.pressure, *arguments[:-1]))
         return FakeEvaluation()
 
@@ -290,7 +290,7 @@ def test_a_vacuum_is_a_negative_pressure_and_no_option(
 ) -> None:
     asked: list[tuple[object, ...]] = []
 
-    def evaluate(design: Design, *given: object, budget: object) -> FakeEvaluation:
+    def evaluate(design: Design, *given: object, budget: object, keep: bool) -> FakeEvaluation:
         asked.append((design.load.pressure, given[2]))
         return FakeEvaluation()
 

@@ -98,8 +98,8 @@ def struck(folder: Path, number: int, *arguments: str) -> tuple[int, str, str]:
 
 COMMANDS = {
     "design": ("design", "prototype_1", "-o", "part.stl"),
-    "evaluate": ("evaluate", "prototype_1", "--vtu", "bent.vtu"),
-    "run": ("run", "prototype_1", "--output", "."),
+    "evaluate": ("evaluate", "prototype_1", "--vtu", "bent.vtu", "--no-cache"),
+    "run": ("run", "prototype_1", "--output", ".", "--no-cache"),
     "fit": FIT,
     "benchmark": ("benchmark", "--output", "speed.json"),
 }

@@ -61,7 +61,7 @@ class AtHand:
         return AtHand(assembly, system)
 
 
-@pytest.mark.parametrize(("share", "factorizations"), [(1.0, 0), (0.995, 0), (0.0, 1)])
+@pytest.mark.parametrize(("share", "factorizations"), [(1.0, 0), (0.9999, 0), (0.9, 1), (0.0, 1)])
 def test_a_factorization_of_an_earlier_state_gives_the_same_derivatives(
     bent: Solution, share: float, factorizations: int
 ) -> None:
