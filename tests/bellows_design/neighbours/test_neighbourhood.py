@@ -191,6 +191,7 @@ def test_near_goes_with_no_other_choice_of_model_or_accuracy(anchor: Evaluation)
             evaluate(anchor.design, near=anchor, **other)  # type: ignore[call-overload]
 
 
+@pytest.mark.slow
 def test_pool_starts_from_the_nearest_and_forgets_the_least_used(
     coarse: Coarse, anchor: Evaluation
 ) -> None:
@@ -202,6 +203,7 @@ def test_pool_starts_from_the_nearest_and_forgets_the_least_used(
     assert [each.anchor.design.name for each in pool._neighbourhoods] == ["prototype_2", "finger"]
 
 
+@pytest.mark.slow
 def test_pool_asks_only_neighbours_with_the_same_faces(coarse: Coarse, anchor: Evaluation) -> None:
     """Though one with other faces is as near in numbers, or nearer."""
     other = with_overrides(anchor.design, ["number_of_bubbles=7", "bubble_width=20.1"])
