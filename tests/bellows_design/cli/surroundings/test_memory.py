@@ -71,5 +71,5 @@ def test_too_little_to_allocate_is_noticed_before_libraries_abort() -> None:
 @pytest.mark.slow
 def test_a_small_stack_is_enlarged_or_blamed_itself() -> None:
     assert bellows("evaluate", "prototype_1", limits="ulimit -Ss 256;").status == 0
-    ended = bellows("evaluate", "prototype_1", limits="ulimit -s 256;")
+    ended = bellows("evaluate", "prototype_1", "--no-cache", limits="ulimit -s 256;")
     assert ended.status == 3 and "stack is limited to 256 KiB (ulimit -s)" in ended.err
