@@ -21,7 +21,8 @@ REACH = 0.2
 """Distance in design space up to which ends and errors are carried along."""
 
 ANGLE_GROWTH, STRESS_GROWTH = 0.08, 0.6
-"""By how much the errors of angle and stress grow, as fractions of the values, over a distance."""
+"""By how much the estimated errors of angle and stress grow, as fractions of the values, over a
+distance. Chosen wide: the angles of 200 neighbours are within 0.28 of their estimates."""
 
 
 @dataclass(frozen=True)

@@ -6,12 +6,13 @@ from bellows_design.analysis.evaluation import Evaluation
 from bellows_design.budget import DEFAULT, Budget
 from bellows_design.design.design import Design
 from bellows_design.neighbours.carried import REACH
+from bellows_design.neighbours.equilibrium import unusable
 from bellows_design.neighbours.neighbourhood import Neighbourhood, ordinary
 from bellows_design.neighbours.record import NeighbourEvaluation
 from bellows_design.progress import SILENCE, Progress
 
 MOST = 4
-"""Neighbourhoods of a pool, each with the factors of one tangent in memory."""
+"""Neighbourhoods of a pool, each with the factors of two tangents in memory."""
 
 
 class Pool:
@@ -45,7 +46,7 @@ class Pool:
 
     def add(self, evaluation: Evaluation) -> None:
         """Begin a neighbourhood of an ordinary evaluation; nothing if it is no start for one."""
-        if evaluation.converged and not evaluation.contact.void:
+        if not unusable(evaluation):
             self._use(Neighbourhood(evaluation))
 
     def _nearest(self, design: Design) -> Neighbourhood | None:
