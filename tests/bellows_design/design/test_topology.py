@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from random_designs import RANGES
 
 from bellows_design.design.design import Design
 from bellows_design.design.shipped import load_design
@@ -63,20 +64,6 @@ def test_floors_that_are_level_may_part_where_fillets_smooth_the_step() -> None:
     sharp = {"inner_fillet": 0.0}
     assert same_topology(design(**sharp), design(**sharp, tendon_thickness=1.45)) != ""
     assert same_topology(design(INSIDE), design(INSIDE, tendon_thickness=1.45)) != ""
-
-
-RANGES = {
-    "bubble_width": (10, 26),
-    "bubble_height": (10, 26),
-    "bubble_thickness": (0.8, 2.4),
-    "tendon_width": (5, 16),
-    "tendon_height": (3.5, 8),
-    "tendon_thickness": (0.8, 2.4),
-    "chamber_length": (1.0, 4.0),
-    "bubble_distance": (0.8, 3.0),
-    "inner_fillet": (0.2, 1.2),
-    "outer_fillet": (0.3, 2.5),
-}
 
 
 def drawn(generator: np.random.Generator) -> Design:
