@@ -1,0 +1,78 @@
+"""One process that answers questions, each from what it has solved before."""
+
+from __future__ import annotations
+
+import time
+from typing import TYPE_CHECKING
+
+from bellows_design.batch.answer import Answer, answer_of, failed
+from bellows_design.batch.question import Question
+from bellows_design.budget import DEFAULT, Budget
+from bellows_design.errors import BellowsError
+
+if TYPE_CHECKING:
+    from bellows_design.analysis.evaluation import Evaluation
+    from bellows_design.design.design import Design
+    from bellows_design.neighbours.record import NeighbourEvaluation
+    from bellows_design.neighbours.sensitivities import Sensitivities
+
+MOST_NEIGHBOURHOODS = 3
+"""Kept in a process, about a quarter of a gigabyte each."""
+
+
+class Session:
+    """Evaluates one design after another; a session that grows while it is used."""
+
+    def __init__(self, model: str = "auto", budget: Budget = DEFAULT) -> None:
+        """``model`` as for ``evaluate``; ``budget`` of each ordinary evaluation."""
+        from bellows_design.evaluation import Pool
+
+        self._model = model
+        self._budget = budget
+        self._pool = Pool(model, most=MOST_NEIGHBOURHOODS)
+
+    def answer(self, question: Question) -> Answer:
+        """The answer to a question; a design that cannot be evaluated is an answer too."""
+        from solver.errors import SolverError
+
+        began = time.perf_counter()
+        try:
+            found = self._found(question)
+            derivatives = _derivatives(found) if question.derivatives else None
+        except (BellowsError, SolverError) as error:
+            return failed(question, str(error), time.perf_counter() - began)
+        return answer_of(question, found, derivatives, time.perf_counter() - began)
+
+    def _found(self, question: Question) -> Evaluation | NeighbourEvaluation:
+        if question.start == "ordinary":
+            return self._ordinary(question.design, question)
+        if question.start == "nearest":
+            return self._pool.evaluate(question.design, budget=self._budget)
+        around = self._pool.around(question.start)
+        if around is None:
+            self._ordinary(question.start, question)
+            around = self._pool.around(question.start)
+        if around is None:  # no neighbour can start there
+            return self._ordinary(question.design, question)
+        return around.evaluate(question.design, budget=self._budget)
+
+    def _ordinary(self, design: Design, question: Question) -> Evaluation:
+        from bellows_design.evaluation import evaluate
+
+        found = evaluate(
+            design,
+            self._model,
+            question.accuracy_percent,
+            budget=self._budget,
+            keep=question.derivatives,
+        )
+        self._pool.add(found)
+        return found
+
+
+def _derivatives(found: Evaluation | NeighbourEvaluation) -> Sensitivities | None:
+    """Those of a result that holds."""
+    from bellows_design.neighbours.equilibrium import unusable
+    from bellows_design.neighbours.sensitivities import sensitivities
+
+    return None if unusable(found) else sensitivities(found)
