@@ -5,8 +5,7 @@ Heavy modules are imported once the input is known to be good.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -19,6 +18,7 @@ from bellows_design.cli.surroundings.memory import (
     GEOMETRY,
     require_address_space,
 )
+from bellows_design.cli.surroundings.solving import solving, usual_store
 from bellows_design.errors import BellowsError, DesignError
 from bellows_design.validation.quoting import quoted
 
@@ -28,7 +28,6 @@ if TYPE_CHECKING:
     from bellows_design.cli.templates import Kind
     from bellows_design.neighbours.sensitivities import Sensitivities
     from bellows_design.progress import Progress
-    from bellows_design.store import Store
 
 
 def list_designs() -> Answer:
@@ -124,8 +123,8 @@ def evaluate(
     from bellows_design.analysis import evaluate as analysis
     from bellows_design.store import evaluated
 
-    with _solving() as progress:
-        store = _store(progress) if cached else None
+    with solving() as progress:
+        store = usual_store(progress) if cached else None
         found = evaluated(
             chosen, model, accuracy, pressures, progress, budget, store=store, keep=derivatives
         )
@@ -139,17 +138,6 @@ def evaluate(
         content["sensitivities"] = None if isinstance(changes, str) else changes.to_dict()
         tables += sensitivities_table(changes)
     return Answer(content, tables, status, failed)
-
-
-def _store(progress: Progress) -> Store | None:
-    """Where this user's results are kept; None, and a note, if there is no place for them."""
-    from bellows_design.store import NoPlace, Store
-
-    try:
-        return Store.usual()
-    except NoPlace as error:
-        progress.note(f"the result is not kept: {error}")
-        return None
 
 
 def _sensitivities(found: Evaluation, progress: Progress) -> Sensitivities | str:
@@ -178,8 +166,8 @@ def run(options: DesignOptions, output: Path, limits: BudgetOptions, cached: boo
     chosen = options.load(rename=True)
     chosen.profile()
     budget = limits.budget()
-    with _solving() as progress:
-        store = _store(progress) if cached else None
+    with solving() as progress:
+        store = usual_store(progress) if cached else None
         outcome = pipeline.run(chosen, output, progress, budget, store)
     refused = REFUSED if outcome.evaluation.converged else NOT_SOLVED
     status = DONE if outcome.verdict.approved else refused
@@ -208,7 +196,7 @@ def benchmark(
     from bellows_design.benchmark import study as benchmarks
 
     names = models or benchmarks.DEFAULT_MODELS
-    with _solving() as progress:
+    with solving() as progress:
         study = benchmarks.study(chosen, names, meshes, progress, budget=budget)
     content = study.to_dict()
     failed = unwritten(
@@ -217,22 +205,6 @@ def benchmark(
     )
     status = DONE if study.converged else NOT_SOLVED
     return Answer(content, benchmark_tables(study), status, failed)
-
-
-@contextmanager
-def _solving() -> Iterator[Progress]:
-    """Progress on stderr that also tells why the first run takes longer."""
-    from bellows_design.progress import on_stderr
-    from solver.numerics.first_run import told_of_compilation
-
-    def tell(kept: bool) -> None:
-        how_often = (
-            "this once" if kept else "each time, as they cannot be kept: see NUMBA_CACHE_DIR"
-        )
-        progress.note(f"compiling the solver, which may take half a minute, {how_often}")
-
-    with on_stderr() as progress, told_of_compilation(tell):
-        yield progress
 
 
 def cache(clear: bool) -> Answer:

@@ -48,6 +48,7 @@ from bellows_design.cli.options import (
     Vtu,
     YieldStrength,
 )
+from bellows_design.cli.study import study
 from bellows_design.cli.templates import Kind
 from bellows_design.materials.laws import BEST
 
@@ -58,6 +59,7 @@ app = typer.Typer(
     no_args_is_help=True,
     pretty_exceptions_enable=False,
 )
+app.add_typer(study, name="study")
 
 
 @app.callback(invoke_without_command=True)
