@@ -3,17 +3,32 @@
 from __future__ import annotations
 
 import logging
+import math
+import os
+import socket
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from dataclasses import dataclass
 from importlib import import_module
 from importlib.util import find_spec
 from typing import Any, Protocol
+from urllib.parse import urlsplit
 
+from bellows_design.budget import LEAST_MEMORY, Budget, default_memory
 from bellows_design.errors import ClusterError, DesignError
+from bellows_design.machine import memory_gib
 from bellows_design.validation.quoting import quoted
 
 LOOPBACK = "127.0.0.1"
+
+MOST_WORKERS = 1000
+"""On one machine."""
+
+WORKER_GIB = 1.2
+"""Memory of a worker with a few neighbourhoods of the usual size."""
+
+LISTEN_SECONDS = 3.0
+"""s. So long it is tried whether anything listens at an address."""
 
 CONNECT_SECONDS = 10.0
 """s. So long a scheduler may take to answer for the first time."""
@@ -40,6 +55,24 @@ class ThisMachine:
     """So many worker processes, which end with this one, and listen on the loopback only."""
 
     workers: int
+
+    @classmethod
+    def of(cls, workers: int | None) -> ThisMachine:
+        """So many workers; without a number one for each processor, if the memory suffices.
+
+        Raises ``DesignError`` for a number that is out of bounds.
+        """
+        if workers is None:
+            memory = memory_gib() or math.inf
+            return cls(max(1, min(_processors(), int(min(memory / WORKER_GIB, MOST_WORKERS)))))
+        if not 1 <= workers <= MOST_WORKERS:
+            raise DesignError(f"--workers is {workers} but must be 0 to {MOST_WORKERS}.")
+        return cls(workers)
+
+    @property
+    def budget(self) -> Budget:
+        """Of an evaluation in one of them: its part of the machine's memory."""
+        return Budget(memory=max(LEAST_MEMORY, default_memory() / self.workers))
 
     @asynccontextmanager
     async def connected(self) -> AsyncIterator[Any]:
@@ -72,6 +105,28 @@ class Elsewhere:
 
     scheduler: str
 
+    def require_listening(self) -> None:
+        """Try it at once, before anything is written or computed.
+
+        Raises ``DesignError`` for what is no address, ``ClusterError`` where nothing listens.
+        """
+        address = urlsplit(self.scheduler if "://" in self.scheduler else f"//{self.scheduler}")
+        try:
+            host, port = address.hostname, address.port
+        except ValueError:
+            host, port = None, None
+        if not host or not port or address.scheme not in ("", "tcp", "tls"):
+            raise DesignError(
+                f"--scheduler is {quoted(self.scheduler)} but must be an address such as "
+                "tcp://host:8786."
+            )
+        try:
+            socket.create_connection((host, port), LISTEN_SECONDS).close()
+        except OSError as error:
+            raise ClusterError(
+                f"no scheduler listens at {quoted(self.scheduler)}: {error.strerror or error}."
+            ) from error
+
     @asynccontextmanager
     async def connected(self) -> AsyncIterator[Any]:
         """A client of that scheduler. Raises ``ClusterError`` if none answers."""
@@ -92,3 +147,10 @@ def _distributed() -> Any:
     """The library, which carries no usable types, and speaks only of what is fatal."""
     logging.getLogger("distributed").setLevel(logging.CRITICAL)
     return import_module("distributed")
+
+
+def _processors() -> int:
+    """Those that this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1

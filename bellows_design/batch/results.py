@@ -32,6 +32,9 @@ from bellows_design.files.locks import locked
 from bellows_design.validation.quoting import quoted_path
 from bellows_design.versions import versions
 
+NESTED = ("varied", "design")
+"""Columns that hold tables."""
+
 WAIT_SECONDS = 60.0
 """s. So long a write waits for a reader that keeps the file busy."""
 
@@ -94,6 +97,21 @@ class Results:
         """The answer to one question; None if there is none yet."""
         found = self._connection.execute("SELECT * FROM answer WHERE key = ?", (key,)).fetchone()
         return None if found is None else row_of(found, self._base)
+
+    def flat_columns(self) -> dict[str, str]:
+        """Columns of :meth:`flat_rows`, each with its type as SQLite states it."""
+        stated = self._connection.execute("PRAGMA table_info(answer)")
+        types = {row["name"]: row["type"] for row in stated if row["name"] not in NESTED}
+        names: dict[str, str] = {}
+        for (text,) in self._connection.execute("SELECT DISTINCT varied FROM answer"):
+            names |= dict.fromkeys(json.loads(text), "REAL")
+        return {"position": types.pop("position"), **names, **types}
+
+    def flat_rows(self) -> Iterator[dict[str, Any]]:
+        """Every answer as plain values, with one for each parameter that was varied."""
+        for values in self._connection.execute("SELECT * FROM answer ORDER BY position, key"):
+            plain = {name: value for name, value in dict(values).items() if name not in NESTED}
+            yield plain | json.loads(values["varied"])
 
 
 @contextmanager
