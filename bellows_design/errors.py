@@ -17,3 +17,7 @@ class DesignError(BellowsError):
     def __init__(self, *sentences: str) -> None:
         super().__init__("\n".join(sentences))
         self.sentences = sentences
+
+
+class ClusterError(BellowsError):
+    """Workers or their scheduler cannot be reached, or are gone; what they finished is kept."""

@@ -41,6 +41,9 @@ class Session:
             derivatives = _derivatives(found) if question.derivatives else None
         except (BellowsError, SolverError) as error:
             return failed(question, str(error), time.perf_counter() - began)
+        except Exception as error:  # a fault of ours with one design does not end a study of many
+            reason = f"internal error, {type(error).__name__}: {error}"
+            return failed(question, reason, time.perf_counter() - began)
         return answer_of(question, found, derivatives, time.perf_counter() - began)
 
     def _found(self, question: Question) -> Evaluation | NeighbourEvaluation:

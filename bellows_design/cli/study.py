@@ -5,13 +5,30 @@ What a command does is in the module of its name in ``bellows_design.cli.studies
 
 from __future__ import annotations
 
+from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from bellows_design.cli.answer import answer
-from bellows_design.cli.options import AsJson, NoCache
+from bellows_design.cli.options import (
+    Accuracy,
+    AsJson,
+    DesignName,
+    DesignOptions,
+    NoCache,
+    Settings,
+)
+
+
+class Sample(StrEnum):
+    """How a sweep chooses designs; ``bellows_design.study.sweep.sampling`` knows what they mean."""
+
+    GRID = "grid"
+    LATIN_HYPERCUBE = "lhs"
+    RANDOM = "random"
+
 
 study = typer.Typer(
     help="Studies: many evaluations that answer one question.",
@@ -31,3 +48,66 @@ def paper(
     from bellows_design.cli.studies.paper import paper as compare
 
     answer(lambda: compare(output, plot, not no_cache), as_json)
+
+
+@study.command()
+def sweep(
+    name: DesignName,
+    vary: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="NAME=FROM:TO[:NUMBER]",
+            help="A parameter and its range, with the number of values for a grid: "
+            "bubble_width=16:20:5. Repeatable.",
+        ),
+    ] = None,
+    file: Annotated[
+        Path, typer.Option(help="Results, .sqlite; where it is there the sweep goes on.")
+    ] = Path("sweep.sqlite"),
+    sample: Annotated[
+        Sample, typer.Option(help="grid, lhs (Latin hypercube) or random.")
+    ] = Sample.GRID,
+    number: Annotated[
+        int | None, typer.Option("-n", "--number", help="Designs of a sample.")
+    ] = None,
+    seed: Annotated[int, typer.Option(help="Of a sample: the same number, the same designs.")] = 0,
+    ordinary: Annotated[
+        bool, typer.Option("--ordinary", help="Each design by itself, not from a neighbour.")
+    ] = False,
+    accuracy: Accuracy = None,
+    workers: Annotated[
+        int | None,
+        typer.Option(
+            metavar="N",
+            help="Processes of this machine; without it one for each processor; 0: this one only.",
+        ),
+    ] = None,
+    scheduler: Annotated[
+        str | None,
+        typer.Option(
+            metavar="ADDRESS",
+            help="The workers of this dask scheduler instead, tcp://host:8786. Only one that you "
+            "trust: whoever reaches it can run programs on it and here.",
+        ),
+    ] = None,
+    retry_failed: Annotated[
+        bool, typer.Option("--retry-failed", help="Ask again what failed.")
+    ] = False,
+    csv: Annotated[Path | None, typer.Option(help="Also write all results as .csv.")] = None,
+    parquet: Annotated[
+        Path | None, typer.Option(help="Also write them as .parquet; needs pyarrow.")
+    ] = None,
+    settings: Settings = None,
+    as_json: AsJson = False,
+) -> None:
+    """Evaluate many designs around one: a grid or a sample."""
+    from bellows_design.cli.studies.sweep import Files, SpaceOptions
+    from bellows_design.cli.studies.sweep import sweep as look
+
+    options = SpaceOptions(
+        DesignOptions(name, tuple(settings or ())), tuple(vary or ()), sample.value, number, seed,
+        ordinary, accuracy,
+    )  # fmt: skip
+    answer(
+        lambda: look(options, Files(file, csv, parquet), workers, scheduler, retry_failed), as_json
+    )

@@ -1,0 +1,156 @@
+"""Where the workers are: processes of this machine, or a scheduler that is there already."""
+
+from __future__ import annotations
+
+import logging
+import math
+import os
+import socket
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+from dataclasses import dataclass
+from importlib import import_module
+from importlib.util import find_spec
+from typing import Any, Protocol
+from urllib.parse import urlsplit
+
+from bellows_design.budget import LEAST_MEMORY, Budget, default_memory
+from bellows_design.errors import ClusterError, DesignError
+from bellows_design.machine import memory_gib
+from bellows_design.validation.quoting import quoted
+
+LOOPBACK = "127.0.0.1"
+
+MOST_WORKERS = 1000
+"""On one machine."""
+
+WORKER_GIB = 1.2
+"""Memory of a worker with a few neighbourhoods of the usual size."""
+
+LISTEN_SECONDS = 3.0
+"""s. So long it is tried whether anything listens at an address."""
+
+CONNECT_SECONDS = 10.0
+"""s. So long a scheduler may take to answer for the first time."""
+
+
+class Place(Protocol):
+    """Where workers are."""
+
+    def connected(self) -> Any:
+        """An asynchronous context with a client of dask, to be entered in a running loop."""
+
+
+def require_dask() -> None:
+    """Raise ``DesignError`` if it is not installed. Imports nothing."""
+    if find_spec("distributed") is None:
+        raise DesignError(
+            "several workers need dask.distributed, which comes with the extra “studies”: "
+            "pip install -e '.[studies]'; or use --workers 0."
+        )
+
+
+@dataclass(frozen=True)
+class ThisMachine:
+    """So many worker processes, which end with this one, and listen on the loopback only."""
+
+    workers: int
+
+    @classmethod
+    def of(cls, workers: int | None) -> ThisMachine:
+        """So many workers; without a number one for each processor, if the memory suffices.
+
+        Raises ``DesignError`` for a number that is out of bounds.
+        """
+        if workers is None:
+            memory = memory_gib() or math.inf
+            return cls(max(1, min(_processors(), int(min(memory / WORKER_GIB, MOST_WORKERS)))))
+        if not 1 <= workers <= MOST_WORKERS:
+            raise DesignError(f"--workers is {workers} but must be 0 to {MOST_WORKERS}.")
+        return cls(workers)
+
+    @property
+    def budget(self) -> Budget:
+        """Of an evaluation in one of them: its part of the machine's memory."""
+        return Budget(memory=max(LEAST_MEMORY, default_memory() / self.workers))
+
+    @asynccontextmanager
+    async def connected(self) -> AsyncIterator[Any]:
+        """A client of the new workers. Raises ``ClusterError``."""
+        import dask
+
+        from bellows_design.batch.workers import ENVIRONMENT
+
+        distributed = _distributed()
+        with dask.config.set({"distributed.nanny.pre-spawn-environ": ENVIRONMENT}):
+            async with (
+                distributed.LocalCluster(
+                    n_workers=self.workers,
+                    processes=True,
+                    threads_per_worker=1,
+                    host=LOOPBACK,
+                    scheduler_kwargs={"dashboard": False, "dashboard_address": f"{LOOPBACK}:0"},
+                    memory_limit=None,  # an evaluation has its own limit
+                    silence_logs=logging.CRITICAL,
+                    asynchronous=True,
+                ) as cluster,
+                distributed.Client(cluster, asynchronous=True) as client,
+            ):
+                yield client
+
+
+@dataclass(frozen=True)
+class Elsewhere:
+    """The workers of a scheduler at an address such as ``tcp://host:8786``."""
+
+    scheduler: str
+
+    def require_listening(self) -> None:
+        """Try it at once, before anything is written or computed.
+
+        Raises ``DesignError`` for what is no address, ``ClusterError`` where nothing listens.
+        """
+        address = urlsplit(self.scheduler if "://" in self.scheduler else f"//{self.scheduler}")
+        try:
+            host, port = address.hostname, address.port
+        except ValueError:
+            host, port = None, None
+        if not host or not port or address.scheme not in ("", "tcp", "tls"):
+            raise DesignError(
+                f"--scheduler is {quoted(self.scheduler)} but must be an address such as "
+                "tcp://host:8786."
+            )
+        try:
+            socket.create_connection((host, port), LISTEN_SECONDS).close()
+        except OSError as error:
+            raise ClusterError(
+                f"no scheduler listens at {quoted(self.scheduler)}: {error.strerror or error}."
+            ) from error
+
+    @asynccontextmanager
+    async def connected(self) -> AsyncIterator[Any]:
+        """A client of that scheduler. Raises ``ClusterError`` if none answers."""
+        distributed = _distributed()
+        try:
+            client = await distributed.Client(
+                self.scheduler, asynchronous=True, timeout=CONNECT_SECONDS
+            )
+        except (OSError, ValueError) as error:
+            raise ClusterError(
+                f"no scheduler answers at {quoted(self.scheduler)} within {CONNECT_SECONDS:g} s."
+            ) from error
+        async with client:
+            yield client
+
+
+def _distributed() -> Any:
+    """The library, which carries no usable types, and speaks only of what is fatal."""
+    logging.getLogger("distributed").setLevel(logging.CRITICAL)
+    return import_module("distributed")
+
+
+def _processors() -> int:
+    """Those that this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1

@@ -1,0 +1,1 @@
+"""Many designs around one: which, in which order, and what is found for them."""
