@@ -17,7 +17,7 @@ from bellows_design.errors import DesignError
 from bellows_design.neighbours.carried import REACH
 from bellows_design.neighbours.distance import distance
 from bellows_design.study.optimize.point import Point
-from bellows_design.study.optimize.variables import Variables
+from bellows_design.study.optimize.space.variables import Variables
 from solver.arrays import Reals
 
 CELL = "unit-cell"

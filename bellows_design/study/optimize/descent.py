@@ -7,25 +7,20 @@ its mesh. Steps are taken within a box, which shrinks where a step does not hold
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+import math
+from collections.abc import Generator
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 
-from bellows_design.batch.answer import Answer
-from bellows_design.batch.question import Question
 from bellows_design.neighbours.carried import REACH
 from bellows_design.neighbours.distance import distance
 from bellows_design.study.optimize.allowed import CLEARANCE, Allowed
 from bellows_design.study.optimize.goal import Goal
 from bellows_design.study.optimize.linear_step import linear_step
-from bellows_design.study.optimize.point import Point, gradients, point_of
-from bellows_design.study.optimize.variables import Variables
+from bellows_design.study.optimize.point import Point, Request, gradients
+from bellows_design.study.optimize.space.variables import Variables
 from solver.arrays import Reals
-
-Ask = Callable[[Question], Answer]
-"""Answers a question, at once if it was answered before."""
 
 FIRST_RADIUS, LARGEST_RADIUS, SMALLEST_RADIUS = 0.10, 0.16, 0.01
 """Of the box for one step, relative to the variables."""
@@ -42,109 +37,83 @@ AT_WALL = 0.2 * CLEARANCE
 WORTHWHILE = 0.003
 """Least gain of a round, relative, for another one."""
 
+HOPELESS = 0.08
+"""A descent that is so much worse than the best known after two rounds is given up."""
+
+Search = Generator[Request, Point | None, None]
+"""Yields what it wants evaluated; it is sent the point, or None where the evaluation failed."""
+
+Round = Generator[Request, Point | None, Point]
+"""The same; returns its best point."""
+
 
 @dataclass(frozen=True)
 class Descent:
-    """Looks for the best design of one choice."""
+    """Looks for the best design of one choice.
+
+    Attributes:
+        variables: Of the choice.
+        goal: What is minimised.
+        start: Values of the variables to begin with.
+        bar: The best merit known before; descents that stay far behind are given up.
+    """
 
     variables: Variables
     goal: Goal
-    ask: Ask
+    start: Reals
+    bar: float = math.inf
 
-    def points(self, start: Reals) -> Iterator[Point]:
-        """Every point evaluated, as it comes; the best of a round begins the next."""
-        best: Point | None = None
-        crossed: set[str] = set()
-        for _ in range(MOST_ROUNDS):
-            anchor = self._evaluated(start, "ordinary")
+    def search(self) -> Search:
+        """Round by round; the last evaluation is one by itself, of the best design."""
+        start, best, crossed = self.start, math.inf, frozenset[str]()
+        for number in range(MOST_ROUNDS):
+            if self.variables.exists(start):
+                return
+            anchor = yield Request(self.variables, self.variables.rounded(start), "ordinary")
             if anchor is None:
                 return
-            yield anchor
-            seen = [anchor]
-            for point in self._round(anchor):
-                seen.append(point)
-                yield point
-            end = min(seen, key=self._merit)
-            wall = self._wall(end, anchor) - crossed
-            gained = best is None or self._merit(end) < self._merit(best) - WORTHWHILE
-            best = end if best is None or self._merit(end) < self._merit(best) else best
-            if wall:
-                name = min(wall)
-                crossed.add(name)
-                start = self._beyond(end, anchor, name)
-            elif gained and end is not anchor:
+            behind = best
+            best = min(best, self._merit(anchor))
+            if number > 1 and best > self.bar + HOPELESS:
+                return
+            if number and not crossed and best > behind - WORTHWHILE:
+                return
+            end = yield from self._round(anchor)
+            walls = self._walls(end, anchor) - crossed
+            if walls:
+                crossed |= {min(walls)}
+                start = self._beyond(end, anchor, min(walls))
+            elif end is anchor:
+                return
+            else:
                 start = end.variables
-            else:
-                return
 
-    def _round(self, anchor: Point) -> Iterator[Point]:
+    def _round(self, anchor: Point) -> Round:
         """Neighbours of one evaluation, each step from the best so far."""
-        at, radius = anchor, FIRST_RADIUS
-        slopes = self._slopes(anchor, anchor)
-        allowed = Allowed(self.variables, anchor.design)
+        at, steps = anchor, _Steps(self, anchor)
         for _ in range(MOST_STEPS):
-            if slopes is None:
-                return
-            step = self._step(at, slopes, allowed, radius)
-            if step is None:
-                return
-            values, radius = step
-            point = self._evaluated(values, anchor)
-            if point is None or point.ordinary:  # no neighbour after all
-                radius /= 2
-                if radius < SMALLEST_RADIUS:
-                    return
+            values = steps.next(at)
+            if values is None:
+                break
+            point = yield Request(self.variables, self.variables.rounded(values), anchor.design)
+            if point is None or point.ordinary:  # no neighbour led there after all
+                steps.radius /= 2
                 continue
-            yield point
             gain = self._merit(at) - self._merit(point)
-            if gain <= 0:
-                radius /= 3
-            else:
-                at, slopes = point, self._slopes(point, anchor)
-                radius = min(radius * 1.5, LARGEST_RADIUS)
-            far = distance(anchor.design, at.design) > FAR * REACH
-            if far or radius < SMALLEST_RADIUS or 0 < gain < WORTHWHILE / 3:
-                return
-
-    def _step(
-        self, at: Point, slopes: dict[str, Reals], allowed: Allowed, radius: float
-    ) -> tuple[Reals, float] | None:
-        """Variables of the next design and the radius they were found with; None for no step."""
-        margins = allowed.linearised(at)
-        while radius >= SMALLEST_RADIUS:
-            values = linear_step(at, slopes, margins, self.variables, self.goal, radius)
-            if np.allclose(values, at.variables, rtol=1e-4):
-                return None
-            if not allowed.refused(values):
-                return values, radius
-            radius /= 2
-        return None
-
-    def _evaluated(self, values: Reals, start: Point | Literal["ordinary"]) -> Point | None:
-        """The point of these variables; None if its evaluation failed."""
-        if self.variables.exists(values):
-            return None
-        design = self.variables.design(values)
-        if isinstance(start, Point):
-            question = Question(design, start.design, derivatives=True)
-        else:
-            question = Question(design, "ordinary", derivatives=True)
-        answer = self.ask(question)
-        return point_of(self.variables, values, answer, self.goal) if answer.done else None
-
-    def _slopes(self, point: Point, anchor: Point) -> dict[str, Reals] | None:
-        if point.answer.derivatives is None:
-            return None
-        return gradients(point, self.variables, self.goal)
+            steps.taken(gain)
+            at = point if gain > 0 else at
+            if distance(anchor.design, at.design) > FAR * REACH or 0 < gain < WORTHWHILE / 3:
+                break
+        return at
 
     def _merit(self, point: Point) -> float:
         return self.goal.merit(point.values)
 
-    def _wall(self, end: Point, anchor: Point) -> set[str]:
+    def _walls(self, end: Point, anchor: Point) -> frozenset[str]:
         """Lengths that keep the body its faces and that the end of a round has come up against."""
         allowed = Allowed(self.variables, anchor.design)
         before, after = allowed.faces(anchor.design), allowed.faces(end.design)
-        return {name for name in after if after[name] < AT_WALL < before[name]}
+        return frozenset(name for name in after if after[name] < AT_WALL < before[name])
 
     def _beyond(self, end: Point, anchor: Point, name: str) -> Reals:
         """Variables of a design on the other side of such a length, as near as possible."""
@@ -153,3 +122,31 @@ class Descent:
         values = end.variables * np.exp(towards * (value + 2 * CLEARANCE))
         values = np.clip(values, self.variables.lower, self.variables.upper)
         return self.variables.within_room(values)
+
+
+class _Steps:
+    """The steps of a round: the box they are taken in changes with what they bring."""
+
+    def __init__(self, descent: Descent, anchor: Point) -> None:
+        self._descent = descent
+        self._allowed = Allowed(descent.variables, anchor.design)
+        self.radius = FIRST_RADIUS
+
+    def next(self, at: Point) -> Reals | None:
+        """Variables of the next design to be evaluated; None if there is no step."""
+        if at.answer.derivatives is None:
+            return None
+        variables, goal = self._descent.variables, self._descent.goal
+        slopes, margins = gradients(at, variables, goal), self._allowed.linearised(at)
+        while self.radius >= SMALLEST_RADIUS:
+            values = linear_step(at, slopes, margins, variables, goal, self.radius)
+            if np.allclose(values, at.variables, rtol=1e-4):
+                return None
+            if not self._allowed.refused(values):
+                return values
+            self.radius /= 2
+        return None
+
+    def taken(self, gain: float) -> None:
+        """Widen the box after a step that gained, narrow it after one that did not."""
+        self.radius = min(1.5 * self.radius, LARGEST_RADIUS) if gain > 0 else self.radius / 3

@@ -4,14 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from bellows_design.study.optimize.goal import MARGIN
 from bellows_design.study.optimize.point import Point
-
-
-def stress_with_error(point: Point) -> float:
-    """Highest stress and its estimated error, MPa; the least error where none is stated."""
-    percent = point.answer.max_von_mises_error_percent
-    return point.values["stress"] * (1 + (100 * MARGIN if percent is None else percent) / 100)
 
 
 def front(points: Iterable[Point]) -> tuple[Point, ...]:

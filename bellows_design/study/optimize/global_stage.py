@@ -9,12 +9,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from bellows_design.study.optimize.choices import Choice
-from bellows_design.study.optimize.variables import Variables
+from bellows_design.errors import DesignError
+from bellows_design.study.optimize.space.choices import Choice
+from bellows_design.study.optimize.space.variables import Variables
 from solver.arrays import Reals
 
 if TYPE_CHECKING:
@@ -25,6 +27,15 @@ MOST_REDRAWS = 50
 
 IMPOSSIBLE = 10.0
 """Merit of a design that cannot exist or be evaluated: worse than any other's by logarithms."""
+
+
+def require_optuna() -> None:
+    """Raise ``DesignError`` if it is not installed. Imports nothing."""
+    if find_spec("optuna") is None:
+        raise DesignError(
+            "an optimization needs Optuna, which comes with the extra “studies”: "
+            "pip install -e '.[studies]'."
+        )
 
 
 @dataclass(frozen=True)
@@ -79,7 +90,7 @@ class GlobalStage:
             return None
         shares = np.array([trial.suggest_float(name, 0.0, 1.0) for name in variables.names])
         span = variables.upper - variables.lower
-        values = variables.within_room(variables.lower + shares * span)
+        values = variables.rounded(variables.within_room(variables.lower + shares * span))
         return None if variables.exists(values) else Suggestion(variables, values, trial)
 
 

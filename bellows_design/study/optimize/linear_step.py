@@ -13,7 +13,7 @@ from scipy.optimize import linprog
 
 from bellows_design.study.optimize.goal import PENALTY, Goal
 from bellows_design.study.optimize.point import Point
-from bellows_design.study.optimize.variables import Variables
+from bellows_design.study.optimize.space.variables import Variables
 from solver.arrays import Reals
 
 SINGULAR = 1e-12

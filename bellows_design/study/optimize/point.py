@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Literal
 
 import numpy as np
 
 from bellows_design.batch.answer import Answer
+from bellows_design.batch.question import Question
 from bellows_design.design.design import Design
-from bellows_design.study.optimize.choices import Choice
-from bellows_design.study.optimize.goal import Goal, responses
-from bellows_design.study.optimize.variables import Variables
+from bellows_design.study.optimize.goal import MARGIN, Goal, responses
+from bellows_design.study.optimize.space.choices import Choice
+from bellows_design.study.optimize.space.variables import Variables
 from solver.arrays import Reals
 
 RESPONSES = {
@@ -48,14 +51,40 @@ class Point:
         """Whether its numbers depend on the design alone."""
         return self.answer.origin == "ordinary"
 
+    @property
+    def stress_with_error(self) -> float:
+        """Highest stress and its estimated error, MPa; the least error where none is stated."""
+        percent = self.answer.max_von_mises_error_percent
+        return self.values["stress"] * (1 + (MARGIN if percent is None else percent / 100))
 
-def point_of(variables: Variables, values: Reals, answer: Answer, goal: Goal) -> Point:
-    """The point of a design that was evaluated."""
-    design = variables.design(values)
-    found = responses(answer)
-    if goal.quantity == "material":
-        found["material"] = material_volume(design)
-    return Point(variables.choice, values, design, answer, found)
+
+@dataclass(frozen=True)
+class Request:
+    """A design that a search wants evaluated, and from where.
+
+    Attributes:
+        variables: Of its choice.
+        values: Theirs.
+        start: ``ordinary``, or the design whose neighbour it is.
+    """
+
+    variables: Variables
+    values: Reals
+    start: Design | Literal["ordinary"]
+
+    @cached_property
+    def question(self) -> Question:
+        """What is asked, with derivatives."""
+        return Question(self.variables.design(self.values), self.start, derivatives=True)
+
+    def point(self, answer: Answer, goal: Goal) -> Point | None:
+        """The point of an answer; None where the evaluation failed."""
+        if not answer.done:
+            return None
+        design, found = self.question.design, responses(answer)
+        if goal.quantity == "material":
+            found["material"] = material_volume(design)
+        return Point(self.variables.choice, self.values, design, answer, found)
 
 
 def gradients(point: Point, variables: Variables, goal: Goal) -> dict[str, Reals]:

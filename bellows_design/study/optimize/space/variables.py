@@ -6,6 +6,7 @@ corners as thick as it is; fillets are fractions of what they round.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -15,7 +16,7 @@ import numpy as np
 from bellows_design.design.bellows_parameters import BellowsParameters
 from bellows_design.design.design import Design
 from bellows_design.errors import DesignError
-from bellows_design.study.optimize.choices import (
+from bellows_design.study.optimize.space.choices import (
     LONGEST_CHAMBER,
     SHORTEST_CHAMBER,
     Bounds,
@@ -98,7 +99,7 @@ class Variables:
             "bubble_thickness": wall,
             "tendon_thickness": self.tendon_wall,
             "inner_fillet": fillet,
-            "outer_fillet": fillet + wall,
+            "outer_fillet": round(fillet + wall, 9),
             "number_of_bubbles": self.choice.bubbles,
         }
         table["indent"] = self._indent(lengths)
@@ -113,6 +114,18 @@ class Variables:
         found |= {"inner_round": 2 * p.inner_fillet / p.chamber_length, "indent.width": width}
         values = np.array([found[name] for name in self.names])
         return self.within_room(np.clip(values, self.lower, self.upper))
+
+    def rounded(self, values: Reals) -> Reals:
+        """The values with lengths of whole micrometres, those along the actuator rounded down."""
+        found = dict(zip(self.names, values, strict=True))
+        for name in self.names:
+            down = name in ("chamber_length", "bubble_distance")
+            if name != "inner_round":
+                found[name] = _floor(found[name]) if down else round(float(found[name]), 3)
+        if "inner_round" in found:
+            half = found["chamber_length"] / 2
+            found["inner_round"] = round(float(found["inner_round"] * half), 3) / half
+        return np.array([found[name] for name in self.names])
 
     def within_room(self, values: Reals) -> Reals:
         """The values with chambers and gaps shortened alike until the bubbles fit."""
@@ -161,7 +174,7 @@ class Variables:
 
     def _inner_fillet(self, lengths: Mapping[str, float]) -> float:
         share = 1.0 if self.choice.full_round else lengths["inner_round"]
-        return share * lengths["chamber_length"] / 2
+        return round(share * lengths["chamber_length"] / 2, 9)
 
     def _indent(self, lengths: Mapping[str, float]) -> dict[str, object] | None:
         if not self.choice.indent_layers:
@@ -174,6 +187,11 @@ class Variables:
             "width": lengths["indent.width"],
             "fillet": INDENT_FILLET * depth,
         }
+
+
+def _floor(length: float) -> float:
+    """Down to a whole micrometre; a hair below one counts as that."""
+    return math.floor(1000 * length + 1e-6) / 1000
 
 
 _LENGTHS = (

@@ -1,7 +1,7 @@
 """How long air takes to fill an actuator through its channel.
 
-Isothermal flow of a gas through a duct with friction, all of the air taken as lying behind the whole
-length of the channel, which is slower than the truth:
+Isothermal flow of a gas through a duct with friction. All of the air is taken as lying behind the
+whole length of the channel, which is slower than the truth:
 
     G^2 = (p_s^2 - p^2) / (R T (f L/D + K + 2 ln(p_s/p)))
 
