@@ -35,6 +35,9 @@ SILENCE_SECONDS = 30.0
 WORKER_SECONDS = 120.0
 """s. So long all workers may be away: another one takes seconds to start."""
 
+OTHERS_SECONDS = 10.0
+"""s. So long the first workers are kept waiting for the others."""
+
 END_SECONDS = 20.0
 """s. So long the end waits for workers; those that stay end with this process."""
 
@@ -157,15 +160,16 @@ class Cluster:
                 await client.unregister_worker_plugin(plugin.name)
 
     async def _meet_workers(self, client: Any, plugin: Answering) -> None:
-        """Wait for the first worker. Raises ``ClusterError`` if it is none of ours."""
+        """Wait for the workers. Raises ``ClusterError`` if none comes, or one is none of ours."""
         from bellows_design.batch.workers import installed_version
 
-        began = self._loop.time()
-        while not self._lanes:
+        waited = 0.0
+        while len(self._lanes) < (1 if waited > OTHERS_SECONDS else self._place.workers):
             await self._look(client, plugin)
-            if self._loop.time() - began > WORKER_SECONDS:
+            if waited > WORKER_SECONDS:
                 raise ClusterError(f"no worker came within {WORKER_SECONDS:g} s.")
-            await asyncio.sleep(POLL_SECONDS / 5)
+            await asyncio.sleep(POLL_SECONDS)
+            waited += POLL_SECONDS
         own = installed_version()
         for address, version in (await client.run(installed_version)).items():
             if version != own:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import asyncio
 import logging
 import math
 import os
 import socket
-from collections.abc import AsyncIterator
-from contextlib import asynccontextmanager
+from collections.abc import AsyncIterator, Coroutine, Iterable
+from contextlib import asynccontextmanager, suppress
 from dataclasses import dataclass
 from importlib import import_module
 from importlib.util import find_spec
@@ -30,12 +31,20 @@ WORKER_GIB = 1.2
 LISTEN_SECONDS = 3.0
 """s. So long it is tried whether anything listens at an address."""
 
+LOOK_SECONDS, RESTART_SECONDS = 0.5, 15.0
+"""s. How often it is looked whether a worker process lives, and how long dask may take to start it
+again before another one is started."""
+
 CONNECT_SECONDS = 10.0
 """s. So long a scheduler may take to answer for the first time."""
 
 
 class Place(Protocol):
     """Where workers are."""
+
+    @property
+    def workers(self) -> int:
+        """How many to wait for at the beginning."""
 
     def connected(self) -> Any:
         """An asynchronous context with a client of dask, to be entered in a running loop."""
@@ -76,7 +85,7 @@ class ThisMachine:
 
     @asynccontextmanager
     async def connected(self) -> AsyncIterator[Any]:
-        """A client of the new workers. Raises ``ClusterError``."""
+        """A client of a scheduler in this process; workers come as soon as they are started."""
         import dask
 
         from bellows_design.batch.workers import ENVIRONMENT
@@ -84,17 +93,11 @@ class ThisMachine:
         distributed = _distributed()
         with dask.config.set({"distributed.nanny.pre-spawn-environ": ENVIRONMENT}):
             async with (
-                distributed.LocalCluster(
-                    n_workers=self.workers,
-                    processes=True,
-                    threads_per_worker=1,
-                    host=LOOPBACK,
-                    scheduler_kwargs={"dashboard": False, "dashboard_address": f"{LOOPBACK}:0"},
-                    memory_limit=None,  # an evaluation has its own limit
-                    silence_logs=logging.CRITICAL,
-                    asynchronous=True,
-                ) as cluster,
-                distributed.Client(cluster, asynchronous=True) as client,
+                distributed.Scheduler(
+                    host=LOOPBACK, port=0, dashboard=False, dashboard_address=f"{LOOPBACK}:0"
+                ) as scheduler,
+                distributed.Client(scheduler.address, asynchronous=True) as client,
+                _in_background(_worker(scheduler.address) for _ in range(self.workers)),
             ):
                 yield client
 
@@ -104,6 +107,7 @@ class Elsewhere:
     """The workers of a scheduler at an address such as ``tcp://host:8786``."""
 
     scheduler: str
+    workers: int = 1
 
     def require_listening(self) -> None:
         """Try it at once, before anything is written or computed.
@@ -141,6 +145,38 @@ class Elsewhere:
             ) from error
         async with client:
             yield client
+
+
+async def _worker(scheduler: str) -> None:
+    """Keep a worker process alive: dask starts it again, but for one that died while it began."""
+    while True:
+        with suppress(Exception):
+            async with _distributed().Nanny(
+                scheduler,
+                nthreads=1,
+                host=LOOPBACK,
+                memory_limit=None,  # an evaluation has its own
+                dashboard=False,
+                silence_logs=logging.CRITICAL,
+            ) as nanny:
+                away = 0.0
+                while away < RESTART_SECONDS:
+                    await asyncio.sleep(LOOK_SECONDS)
+                    alive = nanny.process is not None and nanny.process.is_alive()
+                    away = 0.0 if alive else away + LOOK_SECONDS
+        await asyncio.sleep(LOOK_SECONDS)
+
+
+@asynccontextmanager
+async def _in_background(works: Iterable[Coroutine[Any, Any, None]]) -> AsyncIterator[None]:
+    """Within the block they go on; then they are cancelled, and have ended after it."""
+    tasks = [asyncio.create_task(work) for work in works]
+    try:
+        yield
+    finally:
+        for task in tasks:
+            task.cancel()
+        await asyncio.gather(*tasks, return_exceptions=True)
 
 
 def _distributed() -> Any:

@@ -13,6 +13,7 @@ from bellows_design.errors import BellowsError
 if TYPE_CHECKING:
     from bellows_design.analysis.evaluation import Evaluation
     from bellows_design.design.design import Design
+    from bellows_design.neighbours.pool import Pool
     from bellows_design.neighbours.record import NeighbourEvaluation
     from bellows_design.neighbours.sensitivities import Sensitivities
 
@@ -25,11 +26,12 @@ class Session:
 
     def __init__(self, model: str = "auto", budget: Budget = DEFAULT) -> None:
         """``model`` as for ``evaluate``; ``budget`` of each ordinary evaluation."""
-        from bellows_design.evaluation import Pool
+        from bellows_design.neighbours.pool import Pool
 
         self._model = model
         self._budget = budget
         self._pool = Pool(model, most=MOST_NEIGHBOURHOODS)
+        self._fresh: list[Evaluation] = []  # that the pool does not have yet
 
     def answer(self, question: Question) -> Answer:
         """The answer to a question; a design that cannot be evaluated is an answer too."""
@@ -50,11 +52,11 @@ class Session:
         if question.start == "ordinary":
             return self._ordinary(question.design, question)
         if question.start == "nearest":
-            return self._pool.evaluate(question.design, budget=self._budget)
-        around = self._pool.around(question.start)
+            return self._neighbours().evaluate(question.design, budget=self._budget)
+        around = self._neighbours().around(question.start)
         if around is None:
             self._ordinary(question.start, question)
-            around = self._pool.around(question.start)
+            around = self._neighbours().around(question.start)
         if around is None:  # no neighbour can start there
             return self._ordinary(question.design, question)
         return around.evaluate(question.design, budget=self._budget)
@@ -69,8 +71,15 @@ class Session:
             budget=self._budget,
             keep=question.derivatives,
         )
-        self._pool.add(found)
+        self._fresh = [*self._fresh, found][-MOST_NEIGHBOURHOODS:]
         return found
+
+    def _neighbours(self) -> Pool:
+        """The pool with what was evaluated by itself since; it prepares each, which takes time."""
+        fresh, self._fresh = self._fresh, []
+        for evaluation in fresh:
+            self._pool.add(evaluation)
+        return self._pool
 
 
 def _derivatives(found: Evaluation | NeighbourEvaluation) -> Sensitivities | None:
