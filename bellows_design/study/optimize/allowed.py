@@ -11,10 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from bellows_design.design.design import Design
-from bellows_design.design.lengths import FULL_ROUND_SNAP
+from bellows_design.design.lengths import FULL_ROUND_SNAP, SMALLEST_FEATURE
 from bellows_design.design.topology import same_topology, signature
 from bellows_design.errors import DesignError
-from bellows_design.neighbours.carried import REACH
 from bellows_design.neighbours.distance import distance
 from bellows_design.study.optimize.point import Point
 from bellows_design.study.optimize.space.variables import Variables
@@ -37,8 +36,12 @@ LEAST_GAP = 0.02
 """mm. Bubbles that do not touch under pressure keep so much air between them at least: the half
 actuator, by which the best are verified, does not keep them apart."""
 
+SEARCH_REACH = 0.35
+"""Distance that a neighbour may have in a search. It is more than elsewhere: what is found there is
+evaluated by itself before the search goes on."""
+
 SPARE_REACH = 0.95
-"""Fraction of the distance that a neighbour may have that is used."""
+"""Fraction of that distance that is used."""
 
 RELATIVE_STEP = 1e-4
 """Of difference quotients by the variables."""
@@ -58,7 +61,8 @@ class Allowed:
         """Each must be 0 or more, mm; of the distance, a fraction. Raises ``DesignError``."""
         design = self.variables.design(values)
         found = {"room": -self.variables.train_excess(values)}
-        found["distance"] = SPARE_REACH * REACH - distance(self.anchor, design)
+        found["distance"] = SPARE_REACH * SEARCH_REACH - distance(self.anchor, design)
+        found["port"] = design.port.hole_radius(design.bellows) - SMALLEST_FEATURE / 2
         found |= self.faces(design)
         gap = at.answer.smallest_gap_mm
         if gap is not None:
@@ -84,7 +88,7 @@ class Allowed:
         if reason := self.variables.exists(values):
             return reason
         design = self.variables.design(values)
-        if distance(self.anchor, design) > REACH:
+        if distance(self.anchor, design) > SEARCH_REACH:
             return "it is too far away"
         return same_topology(self.anchor, design, CELL)
 

@@ -13,9 +13,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bellows_design.neighbours.carried import REACH
 from bellows_design.neighbours.distance import distance
-from bellows_design.study.optimize.allowed import CLEARANCE, Allowed
+from bellows_design.study.optimize.allowed import CLEARANCE, SEARCH_REACH, Allowed
 from bellows_design.study.optimize.goal import Goal
 from bellows_design.study.optimize.linear_step import linear_step
 from bellows_design.study.optimize.point import Point, Request, gradients
@@ -24,6 +23,9 @@ from solver.arrays import Reals
 
 FIRST_RADIUS, LARGEST_RADIUS, SMALLEST_RADIUS = 0.10, 0.16, 0.01
 """Of the box for one step, relative to the variables."""
+
+SMALLEST_STEP = 2e-3
+"""Relative change of the variables that is worth an evaluation."""
 
 MOST_ROUNDS, MOST_STEPS = 8, 8
 """Rounds of a descent, and steps of a round."""
@@ -66,27 +68,25 @@ class Descent:
 
     def search(self) -> Search:
         """Round by round; the last evaluation is one by itself, of the best design."""
-        start, best, crossed = self.start, math.inf, frozenset[str]()
+        start, best, crossed = self.variables.rounded(self.start), math.inf, {""}
         settled = False
+        if self.variables.exists(start):
+            return
         for number in range(MOST_ROUNDS):
-            if self.variables.exists(start):
-                return
-            anchor = yield Request(self.variables, self.variables.rounded(start), "ordinary")
+            anchor = yield Request(self.variables, start, "ordinary")
             if anchor is None:
                 return
             best = min(best, self._merit(anchor))
             if settled or (number > 1 and best > self.bar + HOPELESS):
                 return
             end = yield from self._round(anchor)
-            walls = self._walls(end, anchor) - crossed
-            if walls:
-                crossed |= {min(walls)}
-                start = self._beyond(end, anchor, min(walls))
-            elif end is anchor:
+            gained = self._merit(anchor) - self._merit(end)
+            wall = min(self._walls(end, anchor) - crossed, default="")
+            if end is anchor and not wall:
                 return
-            else:
-                start = end.variables
-                settled = self._merit(anchor) - self._merit(end) < WORTHWHILE
+            crossed.add(wall)
+            start = self._beyond(end, anchor, wall) if wall else end.variables
+            settled = gained < WORTHWHILE and not wall
 
     def _round(self, anchor: Point) -> Round:
         """Neighbours of one evaluation, each step from the best so far."""
@@ -95,14 +95,14 @@ class Descent:
             values = steps.next(at)
             if values is None:
                 break
-            point = yield Request(self.variables, self.variables.rounded(values), anchor.design)
+            point = yield Request(self.variables, values, anchor.design, SEARCH_REACH)
             if point is None or point.ordinary:  # no neighbour led there after all
                 steps.radius /= 2
                 continue
             gain = self._merit(at) - self._merit(point)
             steps.taken(gain)
             at = point if gain > 0 else at
-            if distance(anchor.design, at.design) > FAR * REACH or 0 < gain < WORTHWHILE / 3:
+            if distance(anchor.design, at.design) > FAR * SEARCH_REACH or 0 < gain < WORTHWHILE / 3:
                 break
         return at
 
@@ -116,12 +116,16 @@ class Descent:
         return frozenset(name for name in after if after[name] < AT_WALL < before[name])
 
     def _beyond(self, end: Point, anchor: Point, name: str) -> Reals:
-        """Variables of a design on the other side of such a length, as near as possible."""
+        """Variables of a design on the other side of such a length, as near as possible.
+
+        Those of the end itself where there is none.
+        """
         value, slope = Allowed(self.variables, anchor.design).linearised(end)[name]
         towards = -slope / max(float(slope @ slope), 1e-12)
         values = end.variables * np.exp(towards * (value + 2 * CLEARANCE))
         values = np.clip(values, self.variables.lower, self.variables.upper)
-        return self.variables.within_room(values)
+        values = self.variables.rounded(self.variables.within_room(values))
+        return end.variables if self.variables.exists(values) else values
 
 
 class _Steps:
@@ -139,8 +143,9 @@ class _Steps:
         variables, goal = self._descent.variables, self._descent.goal
         slopes, margins = gradients(at, variables, goal), self._allowed.linearised(at)
         while self.radius >= SMALLEST_RADIUS:
-            values = linear_step(at, slopes, margins, variables, goal, self.radius)
-            if np.allclose(values, at.variables, rtol=1e-4):
+            step = linear_step(at, slopes, margins, variables, goal, self.radius)
+            values = variables.rounded(step)
+            if np.allclose(values, at.variables, rtol=SMALLEST_STEP):
                 return None
             if not self._allowed.refused(values):
                 return values

@@ -11,6 +11,7 @@ import numpy as np
 from bellows_design.batch.answer import Answer
 from bellows_design.batch.question import Question
 from bellows_design.design.design import Design
+from bellows_design.neighbours.carried import REACH
 from bellows_design.study.optimize.goal import MARGIN, Goal, responses
 from bellows_design.study.optimize.space.choices import Choice
 from bellows_design.study.optimize.space.variables import Variables
@@ -66,16 +67,20 @@ class Request:
         variables: Of its choice.
         values: Theirs.
         start: ``ordinary``, or the design whose neighbour it is.
+        reach: Distance up to which it is one.
     """
 
     variables: Variables
     values: Reals
     start: Design | Literal["ordinary"]
+    reach: float = REACH
 
     @cached_property
     def question(self) -> Question:
         """What is asked, with derivatives."""
-        return Question(self.variables.design(self.values), self.start, derivatives=True)
+        return Question(
+            self.variables.design(self.values), self.start, derivatives=True, reach=self.reach
+        )
 
     def point(self, answer: Answer, goal: Goal) -> Point | None:
         """The point of an answer; None where the evaluation failed."""
