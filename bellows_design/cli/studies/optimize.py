@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from bellows_design.design.design import Design
     from bellows_design.study.optimize.goal import Goal, Quantity
     from bellows_design.study.optimize.space.choices import Bounds
-    from bellows_design.study.optimize.stages import Optimization
+    from bellows_design.study.optimize.stages import Effort, Optimization
 
 LONGEST_MINUTES = 10_000.0
 
@@ -34,14 +34,16 @@ class GoalOptions:
     angle: float | None = None
     stress: float | None = None
     strain: float | None = None
+    touching: bool = False
 
     def goal(self, base: Design) -> Goal:
         """Within the design's own limit of the stress if none is given. Raises ``DesignError``."""
-        from bellows_design.study.optimize.goal import Goal
+        from bellows_design.study.optimize.goal import LEAST_GAP, Goal
 
         most = base.max_von_mises if self.stress is None else self.stress
         strain = None if self.strain is None else self.strain / 100
-        return Goal(cast("Quantity", self.quantity), most, self.angle, strain)
+        gap = None if self.touching else LEAST_GAP
+        return Goal(cast("Quantity", self.quantity), most, self.angle, strain, gap)
 
 
 @dataclass(frozen=True)
@@ -166,7 +168,7 @@ def _optimization(
 ) -> Optimization:
     from bellows_design.study.optimize.global_stage import require_optuna
     from bellows_design.study.optimize.space.choices import choices
-    from bellows_design.study.optimize.stages import Effort, Optimization
+    from bellows_design.study.optimize.stages import Optimization
 
     if seed < 0:
         raise DesignError(f"--seed is {seed} but must be 0 or more.")
@@ -179,4 +181,11 @@ def _optimization(
             f"no number of bubbles fits into length = {base.bellows.length:g} mm after offset = "
             f"{base.bellows.offset:g} mm within these lines and gaps."
         )
-    return Optimization(base, goal, bounds, Effort(seed=seed))
+    return Optimization(base, goal, bounds, _effort(seed))
+
+
+def _effort(seed: int) -> Effort:
+    """As much as the time allows."""
+    from bellows_design.study.optimize.stages import Effort
+
+    return Effort(seed=seed)

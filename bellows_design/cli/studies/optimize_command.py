@@ -45,6 +45,9 @@ def optimize(
         float | None,
         typer.Option(metavar="PERCENT", help="Largest principal strain, for fatigue."),
     ] = None,
+    touching: Annotated[
+        bool, typer.Option("--touching", help="Neighbouring bubbles may touch under pressure.")
+    ] = False,
     lines: Annotated[
         str | None,
         typer.Option(metavar="COUNTS", help="Lines of the walls, such as 3,4 or 3-5."),
@@ -105,7 +108,7 @@ def optimize(
     from bellows_design.cli.studies.optimize import optimize as search
 
     options = DesignOptions(name, tuple(settings or ()))
-    sought = GoalOptions(quantity.value, angle, stress, strain)
+    sought = GoalOptions(quantity.value, angle, stress, strain, touching)
     counted = CountOptions(lines, bubbles, indents, gap, passage)
     files = OptimumFiles(output, plot)
     answer(

@@ -1,7 +1,7 @@
 """Which designs may be reached from a point without another evaluation by itself.
 
 All of it follows from the numbers alone: the room along the length, the faces of the body, the
-distance up to which a neighbour's ends and errors hold, and the gap that neighbouring bubbles keep.
+distance up to which a neighbour is looked for, and the port.
 """
 
 from __future__ import annotations
@@ -32,10 +32,6 @@ CHANNEL_FLATS = (
 )
 """Lengths that are 0 of all channels whose fillet has no room: what it lacks tells more."""
 
-LEAST_GAP = 0.02
-"""mm. Bubbles that do not touch under pressure keep so much air between them at least: the half
-actuator, by which the best are verified, does not keep them apart."""
-
 SEARCH_REACH = 0.35
 """Distance that a neighbour may have in a search. It is more than elsewhere: what is found there is
 evaluated by itself before the search goes on."""
@@ -57,22 +53,18 @@ class Allowed:
     variables: Variables
     anchor: Design
 
-    def margins(self, values: Reals, at: Point) -> dict[str, float]:
+    def margins(self, values: Reals) -> dict[str, float]:
         """Each must be 0 or more, mm; of the distance, a fraction. Raises ``DesignError``."""
         design = self.variables.design(values)
         found = {"room": -self.variables.train_excess(values)}
         found["distance"] = SPARE_REACH * SEARCH_REACH - distance(self.anchor, design)
         found["port"] = design.port.hole_radius(design.bellows) - SMALLEST_FEATURE / 2
         found |= self.faces(design)
-        gap = at.answer.smallest_gap_mm
-        if gap is not None:
-            place = self.variables.names.index("bubble_distance")
-            found["gap"] = gap + float(values[place] - at.variables[place]) - LEAST_GAP
         return found
 
     def linearised(self, at: Point) -> dict[str, tuple[float, Reals]]:
         """Margins at a point and their derivatives by the logarithms of the variables."""
-        here = self.margins(at.variables, at)
+        here = self.margins(at.variables)
         slopes = {name: np.zeros(len(at.variables)) for name in here}
         for index in range(len(at.variables)):
             for sign in (1.0, -1.0):
@@ -105,7 +97,7 @@ class Allowed:
         moved = at.variables.copy()
         moved[index] *= np.exp(step)
         try:
-            return self.margins(moved, at)
+            return self.margins(moved)
         except DesignError:
             return None
 

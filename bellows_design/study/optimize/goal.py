@@ -19,6 +19,12 @@ MARGIN = 0.02
 evaluation states on four meshes and more. What is verified at the end has an estimate of its own.
 """
 
+LEAST_GAP = 0.02
+"""mm. Of bubbles that do not touch."""
+
+CONTACT_DEPTH = 0.1
+"""mm. By how much bubbles that touch are moved apart at first."""
+
 TOLERANCE = 1e-3
 """Fraction by which a limit may be exceeded on the way."""
 
@@ -37,6 +43,9 @@ class Goal:
         most_stress_mpa: Limit of the highest von Mises stress including its error.
         least_angle_deg: Required angle; needed unless the angle is maximised.
         most_strain: Limit of the largest principal strain, for fatigue; None without one.
+        least_gap_mm: Air that neighbouring bubbles keep between them under pressure; None where
+            they may touch. The half actuator, by which the best is verified, does not keep walls
+            apart.
 
     Raises:
         DesignError: A number is out of its bounds, or an angle is missing.
@@ -46,6 +55,7 @@ class Goal:
     most_stress_mpa: float
     least_angle_deg: float | None = None
     most_strain: float | None = None
+    least_gap_mm: float | None = LEAST_GAP
 
     def __post_init__(self) -> None:
         if self.quantity != "angle" and self.least_angle_deg is None:
@@ -71,12 +81,17 @@ class Goal:
         return self.sign * math.log(max(values[self.quantity], 1e-9))
 
     def limits(self, values: Mapping[str, float]) -> dict[str, float]:
-        """Logarithms of value over limit, by response; positive where a limit is exceeded."""
+        """Logarithms of value over limit, by response; positive where a limit is exceeded.
+
+        Of a gap, which may be negative, the millimetres that it lacks.
+        """
         found = {"stress": math.log(values["stress"] * (1 + MARGIN) / self.most_stress_mpa)}
         if self.most_strain is not None:
             found["strain"] = math.log(values["strain"] / self.most_strain)
         if self.least_angle_deg is not None:
             found["angle"] = math.log(self.least_angle_deg / max(values["angle"], 1e-9))
+        if self.least_gap_mm is not None and "gap" in values:
+            found["gap"] = self.least_gap_mm - values["gap"]
         return found
 
     def violation(self, values: Mapping[str, float]) -> float:
@@ -93,11 +108,16 @@ class Goal:
 
 
 def responses(answer: Answer) -> dict[str, float]:
-    """What goals are about: angle (°), stress (MPa), air (mm³) and strain of an answer."""
+    """What goals are about: angle (°), stress (MPa), air (mm³), strain and gap (mm) of an answer.
+
+    Walls that touch would run into each other by an unknown depth if they were let.
+    """
+    gap = answer.smallest_gap_mm
     found = {
         "angle": answer.bending_angle_deg,
         "stress": answer.max_von_mises_mpa,
         "volume": answer.cavity_volume_mm3,
         "strain": answer.highest_strain,
+        "gap": gap if gap is None or gap > 0 else -CONTACT_DEPTH,
     }
     return {name: value for name, value in found.items() if value is not None}

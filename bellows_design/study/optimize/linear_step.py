@@ -16,6 +16,9 @@ from bellows_design.study.optimize.point import Point
 from bellows_design.study.optimize.space.variables import Variables
 from solver.arrays import Reals
 
+FALLING_SHORT = ("angle", "gap")
+"""Responses whose limits are lower ones."""
+
 SINGULAR = 1e-12
 """Slopes below this are none."""
 
@@ -45,7 +48,7 @@ def linear_step(
     objective = goal.sign * slopes[goal.quantity]
     rows, right = [], []
     for name, excess in limits.items():
-        sign = -1.0 if name == "angle" else 1.0  # an angle falls short
+        sign = -1.0 if name in FALLING_SHORT else 1.0
         rows.append(np.concatenate([sign * slopes[name], _slack(limits, name)]))
         right.append(-excess)
     for value, slope in margins.values():

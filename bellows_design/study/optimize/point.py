@@ -95,7 +95,8 @@ class Request:
 def gradients(point: Point, variables: Variables, goal: Goal) -> dict[str, Reals]:
     """Of the logarithm of each response by the logarithm of each variable (elasticities).
 
-    A strain changes as the stress does, which is all that is known of it: near enough for a step.
+    A strain changes as the stress does, and a gap (mm, no logarithm) as the bubble distance: that
+    is not all, but near enough for a step.
     """
     derivatives = point.answer.derivatives or {}
     found = {
@@ -105,9 +106,17 @@ def gradients(point: Point, variables: Variables, goal: Goal) -> dict[str, Reals
         for name, key in RESPONSES.items()
     }
     found["strain"] = found["stress"]
+    found["gap"] = _gap_slope(point, variables)
     if goal.quantity == "material":
         found["material"] = _material_gradient(point, variables)
     return found
+
+
+def _gap_slope(point: Point, variables: Variables) -> Reals:
+    """Of the gap under pressure by the logarithms of the variables, mm."""
+    is_distance = np.array([name == "bubble_distance" for name in variables.names])
+    slope: Reals = is_distance * point.variables
+    return slope
 
 
 def material_volume(design: Design) -> float:

@@ -78,6 +78,7 @@ def study_of(optimization: Optimization) -> Study:
             "most_stress_mpa": goal.most_stress_mpa,
             "least_angle_deg": goal.least_angle_deg,
             "most_strain": goal.most_strain,
+            "least_gap_mm": goal.least_gap_mm,
             **{name: _plain(value) for name, value in vars(bounds).items()},
             "seed": effort.seed,
         },

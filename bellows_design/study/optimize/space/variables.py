@@ -23,6 +23,7 @@ from bellows_design.study.optimize.space.choices import (
     Choice,
     room,
 )
+from printers import PrinterProfile
 from solver.arrays import Reals
 
 LEAST_ROUND, MOST_ROUND = 0.2, 0.92
@@ -51,14 +52,19 @@ class Variables:
         return (*_LENGTHS, *rounds, *indent)
 
     @cached_property
+    def profile(self) -> PrinterProfile:
+        """The base's printer, whose file is read once."""
+        return self.base.profile()
+
+    @cached_property
     def bubble_wall(self) -> float:
         """mm."""
-        return self.choice.bubble_lines * self.base.profile().line_width
+        return self.choice.bubble_lines * self.profile.line_width
 
     @cached_property
     def tendon_wall(self) -> float:
         """mm."""
-        return self.choice.tendon_lines * self.base.profile().line_width
+        return self.choice.tendon_lines * self.profile.line_width
 
     @cached_property
     def lower(self) -> Reals:
@@ -72,7 +78,7 @@ class Variables:
 
     @cached_property
     def _ranges(self) -> dict[str, tuple[float, float]]:
-        profile, limits = self.base.profile(), self.base.limits
+        profile, limits = self.profile, self.base.limits
         gap = self.bounds.least_gap(profile)
         channel = self.bounds.least_passage(profile) + 2 * self.tendon_wall
         # The channel opens into the chamber above the thicker one of both floors.
@@ -179,7 +185,7 @@ class Variables:
     def _indent(self, lengths: Mapping[str, float]) -> dict[str, object] | None:
         if not self.choice.indent_layers:
             return None
-        depth = round(self.choice.indent_layers * self.base.profile().layer_height, 6)
+        depth = round(self.choice.indent_layers * self.profile.layer_height, 6)
         return {
             "side": "outside",
             "shape": "rectangular",
