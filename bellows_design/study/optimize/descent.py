@@ -69,7 +69,7 @@ class Descent:
     def search(self) -> Search:
         """Round by round; the last evaluation is one by itself, of the best design."""
         start, best, crossed = self.variables.rounded(self.start), math.inf, {""}
-        settled = False
+        settled, gap = False, GapSlope(len(start))
         if self.variables.exists(start):
             return
         for number in range(MOST_ROUNDS):
@@ -79,7 +79,7 @@ class Descent:
             best = min(best, self._merit(anchor))
             if settled or (number > 1 and best > self.bar + HOPELESS):
                 return
-            end = yield from self._round(anchor)
+            end = yield from self._round(anchor, gap)
             gained = self._merit(anchor) - self._merit(end)
             wall = min(self._walls(end, anchor) - crossed, default="")
             if end is anchor and not wall:
@@ -88,9 +88,9 @@ class Descent:
             start = self._beyond(end, anchor, wall) if wall else end.variables
             settled = gained < WORTHWHILE and not wall
 
-    def _round(self, anchor: Point) -> Round:
+    def _round(self, anchor: Point, gap: GapSlope) -> Round:
         """Neighbours of one evaluation, each step from the best so far."""
-        at, steps = anchor, _Steps(self, anchor)
+        at, steps = anchor, _Steps(self, anchor, gap)
         for _ in range(MOST_STEPS):
             values = steps.next(at)
             if values is None:
@@ -99,6 +99,7 @@ class Descent:
             if point is None or point.ordinary:  # no neighbour led there after all
                 steps.radius /= 2
                 continue
+            gap.learn(at, point, gradients(at, self.variables, self.goal)["gap"])
             gain = self._merit(at) - self._merit(point)
             steps.taken(gain)
             at = point if gain > 0 else at
@@ -128,11 +129,26 @@ class Descent:
         return end.variables if self.variables.exists(values) else values
 
 
+class GapSlope:
+    """What steps have shown of the gap's slope beyond what is known of it: Broyden's update."""
+
+    def __init__(self, size: int) -> None:
+        self.correction = np.zeros(size)
+
+    def learn(self, before: Point, after: Point, slope: Reals) -> None:
+        """Correct the slope so that it explains the change of the gap from one point to another."""
+        step = np.log(after.variables / before.variables)
+        if "gap" in before.values and "gap" in after.values and step.any():
+            explained = float((slope + self.correction) @ step)
+            change = after.values["gap"] - before.values["gap"]
+            self.correction += (change - explained) * step / float(step @ step)
+
+
 class _Steps:
     """The steps of a round: the box they are taken in changes with what they bring."""
 
-    def __init__(self, descent: Descent, anchor: Point) -> None:
-        self._descent = descent
+    def __init__(self, descent: Descent, anchor: Point, gap: GapSlope) -> None:
+        self._descent, self._gap = descent, gap
         self._allowed = Allowed(descent.variables, anchor.design)
         self.radius = FIRST_RADIUS
 
@@ -142,6 +158,7 @@ class _Steps:
             return None
         variables, goal = self._descent.variables, self._descent.goal
         slopes, margins = gradients(at, variables, goal), self._allowed.linearised(at)
+        slopes["gap"] = slopes["gap"] + self._gap.correction
         while self.radius >= SMALLEST_RADIUS:
             step = linear_step(at, slopes, margins, variables, goal, self.radius)
             values = variables.rounded(step)

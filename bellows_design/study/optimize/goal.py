@@ -22,7 +22,7 @@ evaluation states on four meshes and more. What is verified at the end has an es
 LEAST_GAP = 0.02
 """mm. Of bubbles that do not touch."""
 
-CONTACT_DEPTH = 0.1
+CONTACT_DEPTH = 0.05
 """mm. By how much bubbles that touch are moved apart at first."""
 
 TOLERANCE = 1e-3
