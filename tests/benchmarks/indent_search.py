@@ -1,0 +1,127 @@
+"""The indent of Prototype 2, searched for kind by kind, and verified.
+
+    python tests/benchmarks/indent_search.py [tests/benchmarks/indent_search.json [points]]
+
+For every side and shape so many points (12 without) spread over the room there is, and walks from
+the best towards both aims, all evaluated to ``ACCURACY`` percent; what was found once more to
+``VERIFIED`` percent against Prototype 2 evaluated likewise, and the shipped ``prototype_2_indent``
+too. Prints tables of docs/paper.md.
+
+Trials are written as they come, below ``trials`` of their kind; a kind whose search is done is not
+searched again. What the store of results has is not computed again either. About forty minutes.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import Any
+
+from bellows_design import load_design
+from bellows_design.analysis.evaluation import Evaluation
+from bellows_design.budget import Budget
+from bellows_design.design.design import Design
+from bellows_design.design.indent import Indent
+from bellows_design.files.json_files import write_json
+from bellows_design.store import Store, evaluated
+from bellows_design.study.indent.kinds import KINDS, Kind
+from bellows_design.study.indent.search import searched
+from bellows_design.study.indent.tester import Tester
+from bellows_design.study.indent.trial import Trial
+
+ACCURACY, VERIFIED = 3.0, 2.0
+"""%. No estimate of the stress is below 2."""
+
+BUDGET = Budget(memory=6.0, seconds=600.0)
+
+
+def evaluate(design: Design, accuracy: float = ACCURACY) -> Evaluation:
+    """From the store of results, or computed."""
+    return evaluated(design, accuracy_percent=accuracy, budget=BUDGET, store=Store.usual())
+
+
+def verified(indent: Indent | None) -> Trial:
+    """Prototype 2 with an indent against none."""
+    tester = Tester(load_design("prototype_2"), lambda design: evaluate(design, VERIFIED), _ignored)
+    found = tester.plain if indent is None else tester.tried(indent, "verified")
+    assert found is not None
+    return tester.trial(found, "verified")
+
+
+def _ignored(_: Trial) -> None:
+    pass
+
+
+class File:
+    """The results so far."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self.content: dict[str, Any] = (
+            json.loads(path.read_text("utf-8")) if path.is_file() else {"kinds": {}}
+        )
+
+    def written(self) -> None:
+        """Write it."""
+        write_json(self.content, self.path)
+
+
+def search_kind(kind: Kind, points: int, file: File) -> None:
+    """Search one kind, and write every trial."""
+    entry: dict[str, Any] = {"done": False, "trials": []}
+    file.content["kinds"][kind.name] = entry
+
+    def tell(trial: Trial) -> None:
+        entry["trials"].append(trial.to_dict())
+        file.written()
+        print(kind.name, trial.how, trial.indent, trial.changes, flush=True)
+
+    base = load_design("prototype_2")
+    study = searched(base, evaluate, points, (kind,), tell=tell)
+    checked = [verified(each.trial.indent).to_dict() for each in study.found]
+    entry |= {**study.to_dict(), "verified": checked, "done": True}
+    file.written()
+
+
+def verify_shipped(file: File) -> None:
+    """The shipped design with an indent, verified like the others, and the one without."""
+    shipped = load_design("prototype_2_indent").indent
+    file.content["shipped"] = verified(shipped).to_dict()
+    file.content["plain"] = verified(None).to_dict()
+    file.written()
+
+
+def print_tables(content: dict[str, Any]) -> None:
+    """What was found for each kind, and the front over all of them."""
+    print("| aim | kind | indent | angle | stress | printable |\n" + "|---" * 6 + "|")
+    for kind, entry in content["kinds"].items():
+        for found, checked in zip(entry["found"], entry["verified"], strict=True):
+            print(f"| {found['aim']} | {kind} | {line(checked)} | {found['printable']} |")
+    print(f"| shipped | | {line(content['shipped'])} | |")
+
+
+def line(trial: dict[str, Any]) -> str:
+    """The cells of one trial."""
+    indent, changes, error = trial["indent"], trial["changes"], trial["error_estimate"]
+    size = f"{indent['depth']:.2f} × {indent['width']:.2f}, fillet {indent['fillet']:.2f}"
+    return (
+        f"{size} | {changes['bending_angle_percent']:+.1f} % "
+        f"± {error['bending_angle_percent']:.1f} % "
+        f"| {changes['max_von_mises_percent']:+.1f} % ± {error['max_von_mises_percent']:.1f} %"
+    )
+
+
+def main(target: str = "tests/benchmarks/indent_search.json", points: str = "12") -> None:
+    """Search what is not searched yet, and print."""
+    file = File(Path(target))
+    for kind in KINDS:
+        if not file.content["kinds"].get(kind.name, {}).get("done"):
+            search_kind(kind, int(points), file)
+    if "shipped" not in file.content:
+        verify_shipped(file)
+    print_tables(file.content)
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:3])
