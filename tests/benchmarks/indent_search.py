@@ -2,13 +2,13 @@
 
     python tests/benchmarks/indent_search.py [tests/benchmarks/indent_search.json [points]]
 
-For every side and shape so many points (12 without) spread over the room there is, and walks from
-the best towards both aims, all evaluated to ``ACCURACY`` percent; what was found once more to
-``VERIFIED`` percent against Prototype 2 evaluated likewise, and the shipped ``prototype_2_indent``
-too. Prints tables of docs/paper.md.
+For every side and shape so many points (12 without) are spread over the room there is, and walks
+lead from the best towards both aims, by ordinary evaluations against Prototype 2 evaluated to
+``VERIFIED`` percent. What was found, the front of each kind and the shipped ``prototype_2_indent``
+are evaluated to that accuracy, too. Prints the tables of docs/paper.md.
 
 Trials are written as they come, below ``trials`` of their kind; a kind whose search is done is not
-searched again. What the store of results has is not computed again either. About forty minutes.
+searched again, and what the store of results has is not computed again. About twenty minutes.
 """
 
 from __future__ import annotations
@@ -30,20 +30,25 @@ from bellows_design.study.indent.search import searched
 from bellows_design.study.indent.tester import Tester
 from bellows_design.study.indent.trial import Trial
 
-ACCURACY, VERIFIED = 3.0, 2.0
-"""%. No estimate of the stress is below 2."""
+VERIFIED = 2.0
+"""%. No estimate of the stress is below that."""
 
 BUDGET = Budget(memory=6.0, seconds=600.0)
 
 
-def evaluate(design: Design, accuracy: float = ACCURACY) -> Evaluation:
+def evaluate(design: Design, accuracy: float | None = VERIFIED) -> Evaluation:
     """From the store of results, or computed."""
     return evaluated(design, accuracy_percent=accuracy, budget=BUDGET, store=Store.usual())
 
 
+def survey(design: Design) -> Evaluation:
+    """What the search goes by: an ordinary evaluation, but of the design without indent."""
+    return evaluate(design, VERIFIED if design.indent is None else None)
+
+
 def verified(indent: Indent | None) -> Trial:
     """Prototype 2 with an indent against none."""
-    tester = Tester(load_design("prototype_2"), lambda design: evaluate(design, VERIFIED), _ignored)
+    tester = Tester(load_design("prototype_2"), evaluate, _ignored)
     found = tester.plain if indent is None else tester.tried(indent, "verified")
     assert found is not None
     return tester.trial(found, "verified")
@@ -78,9 +83,13 @@ def search_kind(kind: Kind, points: int, file: File) -> None:
         print(kind.name, trial.how, trial.indent, trial.changes, flush=True)
 
     base = load_design("prototype_2")
-    study = searched(base, evaluate, points, (kind,), tell=tell)
-    checked = [verified(each.trial.indent).to_dict() for each in study.found]
-    entry |= {**study.to_dict(), "verified": checked, "done": True}
+    study = searched(base, survey, points, (kind,), tell=tell)
+    entry |= {**study.to_dict(), "verified": []}
+    front = [trial for trial in study.front if trial.indent is not None and trial.how != "step"]
+    for trial in [*(each.trial for each in study.found), *front]:
+        entry["verified"].append(verified(trial.indent).to_dict())
+        file.written()
+    entry["done"] = True
     file.written()
 
 
@@ -96,7 +105,7 @@ def print_tables(content: dict[str, Any]) -> None:
     """What was found for each kind, and the front over all of them."""
     print("| aim | kind | indent | angle | stress | printable |\n" + "|---" * 6 + "|")
     for kind, entry in content["kinds"].items():
-        for found, checked in zip(entry["found"], entry["verified"], strict=True):
+        for found, checked in zip(entry["found"], entry["verified"], strict=False):
             print(f"| {found['aim']} | {kind} | {line(checked)} | {found['printable']} |")
     print(f"| shipped | | {line(content['shipped'])} | |")
 

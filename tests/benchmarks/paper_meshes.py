@@ -3,13 +3,13 @@
     python tests/benchmarks/paper_meshes.py [tests/benchmarks/paper_meshes.json]
 
 The paper meshed with quadratic hybrid tetrahedra of 1 mm or less, about 50 000 of them, and does
-not say how channel and chamber meet. Every design it computed is solved on the unit cell, on
-each of ``MESHES``, once with the channel's edges rounded like the chamber's (as we
-build it) and once with them left sharp (a chamber with fillets, and a plain channel cut through
-it). Where bubble and tendon have walls of two thicknesses, two more have the floors of chamber and
-channel at one height, the one or the other. Each row has three readings of the highest von Mises stress: averaged at the nodes, in single
-elements at their nodes, and in single elements at their quadrature points; ``elements_of_actuator``
-is how many tetrahedra the whole actuator would have on such a mesh, ends left out.
+not say how channel and chamber meet. Every design it computed is solved on the unit cell, on each
+of ``MESHES``, once with the channel's edges rounded like the chamber's (as we build it) and once
+with them left sharp (a chamber with fillets, and a plain channel cut through it). Where bubble and
+tendon have walls of two thicknesses, two more have the floors of chamber and channel at one height,
+the one or the other. Each row has three readings of the highest von Mises stress: averaged at the
+nodes, in single elements at their nodes, and in single elements at their quadrature points;
+``elements_of_actuator`` is how many tetrahedra the whole actuator would have, ends left out.
 
 Rows are written as they come; those in the file are not computed again. About ten minutes.
 """

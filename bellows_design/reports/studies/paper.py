@@ -13,12 +13,16 @@ from rich.text import Text
 if TYPE_CHECKING:
     from bellows_design.study.comparison import Comparison, Row
 
-HEADINGS = ("paper", "ours", "off", "change, paper", "ours")
+HEADINGS = ("paper", "ours", "off", "Δ paper", "Δ ours")
+"""Δ: change against Prototype 1."""
 
 
 def paper_tables(comparison: Comparison) -> Sequence[RenderableType]:
     """Angles, then stresses, each with its change against Prototype 1; then the accounts."""
-    angles, stresses = _empty("bending angle, °", "s"), _empty("highest von Mises stress, MPa", "")
+    angles, stresses = (
+        _empty("bending angle, °; Δ against Prototype 1", "s"),
+        _empty("highest von Mises stress, MPa", ""),
+    )
     for row in comparison.rows:
         angles.add_row(*_angle(row))
         stresses.add_row(*_stress(row))
@@ -30,7 +34,7 @@ def _empty(title: str, last: str) -> Table:
     table = Table(title=title, title_justify="left", box=SIMPLE, pad_edge=False)
     table.add_column("design", no_wrap=True)
     for heading in (*HEADINGS, *([last] if last else [])):
-        table.add_column(heading, justify="right", no_wrap=heading != "change, paper")
+        table.add_column(heading, justify="right", no_wrap=True)
     return table
 
 
