@@ -14,14 +14,14 @@ if TYPE_CHECKING:
     from bellows_design.study.comparison import Comparison, Row
 
 HEADINGS = ("paper", "ours", "off", "Δ paper", "Δ ours")
-"""Δ: change against Prototype 1."""
+"""``off``: ours against the paper's; Δ: changes against Prototype 1; all in percent."""
 
 
 def paper_tables(comparison: Comparison) -> Sequence[RenderableType]:
     """Angles, then stresses, each with its change against Prototype 1; then the accounts."""
     angles, stresses = (
-        _empty("bending angle, °; Δ against Prototype 1", "s"),
-        _empty("highest von Mises stress, MPa", ""),
+        _empty("bending angle, °; off the paper's and Δ against Prototype 1, %", "s"),
+        _empty("highest von Mises stress, MPa; likewise", ""),
     )
     for row in comparison.rows:
         angles.add_row(*_angle(row))
@@ -43,10 +43,10 @@ def _angle(row: Row) -> Iterator[str]:
     yield row.result.label + ("" if row.agrees else " *")
     yield f"{row.result.bending_angle_deg:g}"
     yield f"{ours.bending_angle_deg:.0f}{_error(error)}"
-    yield f"{row.angle_off_percent:+.1f} %"
-    yield f"{row.result.angle_change_percent:+.1f} %"
-    yield f"{row.changes.bending_angle_percent:+.1f} %"
-    yield f"{ours.seconds.total:.1f}"
+    yield f"{row.angle_off_percent:+.1f}"
+    yield f"{row.result.angle_change_percent:+.1f}"
+    yield f"{row.changes.bending_angle_percent:+.1f}"
+    yield f"{ours.seconds.total:.0f}"
 
 
 def _stress(row: Row) -> Iterator[str]:
@@ -54,9 +54,9 @@ def _stress(row: Row) -> Iterator[str]:
     yield row.result.label + ("" if row.agrees else " *")
     yield f"{row.result.max_stress_mpa:.2f}"
     yield f"{ours.max_von_mises_mpa:.2f}{_error(error)}"
-    yield f"{row.stress_off_percent:+.1f} %"
-    yield f"{row.result.stress_change_percent:+.1f} %"
-    yield f"{row.changes.max_von_mises_percent:+.1f} %"
+    yield f"{row.stress_off_percent:+.1f}"
+    yield f"{row.result.stress_change_percent:+.1f}"
+    yield f"{row.changes.max_von_mises_percent:+.1f}"
 
 
 def _error(percent: float | None) -> str:

@@ -63,7 +63,7 @@ class Kind:
         return self.shape == "arc"
 
 
-KINDS = (Kind("outside", "arc"), Kind("outside", "rectangular"), Kind("inside", "rectangular"))
+KINDS = (Kind("outside", "rectangular"), Kind("outside", "arc"), Kind("inside", "rectangular"))
 """All that a design may have."""
 
 

@@ -76,7 +76,11 @@ class Trial:
 def front(trials: Sequence[Trial]) -> tuple[Trial, ...]:
     """Those that no other betters in both more angle and less stress, by ascending angle."""
     best: list[Trial] = []
-    for trial in sorted(trials, key=lambda each: -each.changes.bending_angle_percent):
+    for trial in sorted(trials, key=_most_angle_first):
         if not best or trial.changes.max_von_mises_percent < best[-1].changes.max_von_mises_percent:
             best.append(trial)
     return tuple(reversed(best))
+
+
+def _most_angle_first(trial: Trial) -> tuple[float, float]:
+    return -trial.changes.bending_angle_percent, trial.changes.max_von_mises_percent
