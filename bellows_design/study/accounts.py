@@ -8,15 +8,16 @@ from types import MappingProxyType
 ACCOUNTS: Mapping[str, str] = MappingProxyType(
     {
         "bubble height 16": (
-            "the angle; no reading of the geometry explains it. The change in stress is the "
-            "paper's."
+            "the angle; no reading of the parameters as printed gives the paper's, a tendon 6 mm "
+            "high would give both its numbers."
         ),
         "bubble thickness 1.2": (
             "the sign of the change in stress. Where the floors of chamber and channel stay level, "
             "as in Prototype 1, the stress rises as in the paper."
         ),
         "bubble distance 1": (
-            "the angle; 7.5 bubbles fit, we take eight. Seven turn as much less as eight turn more."
+            "the angle; 7.5 bubbles fit. We take eight; the paper's angle is the mean of seven "
+            "and eight."
         ),
     }
 )

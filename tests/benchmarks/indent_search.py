@@ -5,7 +5,7 @@
 For every side and shape so many points (12 without) are spread over the room there is, and walks
 lead from the best towards both aims, by ordinary evaluations. What was found, the front of each
 kind and the shipped ``prototype_2_indent`` are evaluated to ``VERIFIED`` percent, against Prototype
-2 evaluated likewise. Prints the tables of docs/paper.md.
+2 evaluated likewise. Prints the tables of docs/paper.md and draws docs/indent.png.
 
 Trials are written as they come, below ``trials`` of their kind; a kind whose search is done is not
 searched again, and what the store of results has is not computed again. About twenty minutes.
@@ -19,16 +19,19 @@ from pathlib import Path
 from typing import Any
 
 from bellows_design import load_design
+from bellows_design.analysis.error_estimate import ErrorEstimate
 from bellows_design.analysis.evaluation import Evaluation
 from bellows_design.budget import Budget
 from bellows_design.design.design import Design
 from bellows_design.design.indent import Indent
 from bellows_design.files.json_files import write_json
+from bellows_design.reports.studies.indent_plot import plot_indents
 from bellows_design.store import Store, evaluated
+from bellows_design.study.changes import Changes
 from bellows_design.study.indent.kinds import KINDS, Kind
-from bellows_design.study.indent.search import searched
+from bellows_design.study.indent.search import IndentStudy, searched
 from bellows_design.study.indent.tester import Tester
-from bellows_design.study.indent.trial import Trial
+from bellows_design.study.indent.trial import Trial, front
 
 VERIFIED = 2.0
 """%. No estimate of the stress is below that."""
@@ -85,8 +88,8 @@ def search_kind(kind: Kind, points: int, file: File) -> None:
     base = load_design("prototype_2")
     study = searched(base, survey, points, (kind,), tell=tell)
     entry |= {**study.to_dict(), "verified": []}
-    front = [trial for trial in study.front if trial.indent is not None and trial.how != "step"]
-    for trial in [*(each.trial for each in study.found), *front]:
+    best = [trial for trial in study.front if trial.indent is not None and trial.how != "step"]
+    for trial in [*(each.trial for each in study.found), *best]:
         entry["verified"].append(verified(trial.indent).to_dict())
         file.written()
     entry["done"] = True
@@ -102,23 +105,53 @@ def verify_shipped(file: File) -> None:
 
 
 def print_tables(content: dict[str, Any]) -> None:
-    """What was found for each kind, and the front over all of them."""
-    print("| aim | kind | indent | angle | stress | printable |\n" + "|---" * 6 + "|")
-    for kind, entry in content["kinds"].items():
+    """What was found for each kind, and the front of all that were verified."""
+    print("| aim | indent, mm | angle | stress | printable |\n" + "|---" * 5 + "|")
+    for entry in content["kinds"].values():
         for found, checked in zip(entry["found"], entry["verified"], strict=False):
-            print(f"| {found['aim']} | {kind} | {line(checked)} | {found['printable']} |")
-    print(f"| shipped | | {line(content['shipped'])} | |")
+            print(f"| {found['aim']} {line(trial_of(checked))} {found['printable']} |")
+    print(f"| shipped {line(trial_of(content['shipped']))} |")
+    print("\n| front | angle | stress |\n" + "|---" * 3 + "|")
+    for trial in front([trial_of(content["plain"]), *all_verified(content)]):
+        print(line(trial))
 
 
-def line(trial: dict[str, Any]) -> str:
+def line(trial: Trial) -> str:
     """The cells of one trial."""
-    indent, changes, error = trial["indent"], trial["changes"], trial["error_estimate"]
-    size = f"{indent['depth']:.2f} × {indent['width']:.2f}, fillet {indent['fillet']:.2f}"
+    changes, error = trial.changes, trial.error_estimate
     return (
-        f"{size} | {changes['bending_angle_percent']:+.1f} % "
-        f"± {error['bending_angle_percent']:.1f} % "
-        f"| {changes['max_von_mises_percent']:+.1f} % ± {error['max_von_mises_percent']:.1f} %"
+        f"| {trial.label} | {changes.bending_angle_percent:+.1f} % "
+        f"(± {error.bending_angle_percent:.1f}) | {changes.max_von_mises_percent:+.1f} % "
+        f"(± {error.max_von_mises_percent:.1f}) |"
     )
+
+
+def all_verified(content: dict[str, Any]) -> list[Trial]:
+    """Every verified trial of a file, the shipped design's too."""
+    entries = content["kinds"].values()
+    found = [trial_of(each) for entry in entries for each in entry.get("verified", ())]
+    return [*found, trial_of(content["shipped"])]
+
+
+def trial_of(row: dict[str, Any]) -> Trial:
+    """A trial from its row."""
+    indent = None if row["indent"] is None else Indent.model_validate(row["indent"])
+    return Trial(
+        indent,
+        row["how"],
+        row["bending_angle_deg"],
+        row["max_von_mises_mpa"],
+        ErrorEstimate(**row["error_estimate"]),
+        Changes(**row["changes"]),
+    )
+
+
+def draw(content: dict[str, Any], path: Path) -> None:
+    """All trials, and the verified ones with their front."""
+    rows = [row for entry in content["kinds"].values() for row in entry["trials"]]
+    trials, base = tuple(map(trial_of, rows)), load_design("prototype_2")
+    study = IndentStudy(base, trial_of(content["plain"]), trials, ())
+    plot_indents(study, path, all_verified(content))
 
 
 def main(target: str = "tests/benchmarks/indent_search.json", points: str = "12") -> None:
@@ -130,6 +163,7 @@ def main(target: str = "tests/benchmarks/indent_search.json", points: str = "12"
     if "shipped" not in file.content:
         verify_shipped(file)
     print_tables(file.content)
+    draw(file.content, Path("docs/indent.png"))
 
 
 if __name__ == "__main__":
