@@ -29,6 +29,9 @@ SHARE = 0.11
 MOST_STEPS = 10
 """Evaluations of a walk; each takes about a fifth of an ordinary one with its sensitivities."""
 
+WORTHWHILE = 1e-3
+"""Relative gain of a step below which a walk ends."""
+
 NOWHERE = 1e3
 """Value of an aim where there is no design, or none within reach: steps become shorter then."""
 
@@ -71,7 +74,7 @@ class Walk:
             return value, slope
 
         box = [self._scaled(name, *bounds[name]) for name in self._start]
-        start, most = np.ones(len(box)), {"maxfun": MOST_STEPS}
+        start, most = np.ones(len(box)), {"maxfun": MOST_STEPS, "ftol": WORTHWHILE}
         minimize(value_and_slope, start, jac=True, method="L-BFGS-B", bounds=box, options=most)
         return min(found, key=lambda each: each[0])[1] if found else self._design
 
