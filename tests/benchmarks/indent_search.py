@@ -72,6 +72,7 @@ CHOSEN = (
     _outside(0.49, 3.38, 0.11),
     _outside(0.55, 3.0, 0.12),
     _outside(0.7, 2.3, 0.37),
+    _outside(0.8, 1.6, 0.4),
     Indent(side="outside", shape="arc", depth=0.4, width=3.6),
     Indent(side="inside", shape="rectangular", depth=0.3, width=1.2, fillet=0.3),
 )

@@ -26,10 +26,8 @@ def plot_indents(study: IndentStudy, path: Path, verified: Sequence[Trial] = ())
     Where some are ``verified`` on finer meshes, these are drawn larger, and the front is theirs. As
     PNG, written completely or not at all. Raises ``DesignError`` without matplotlib.
     """
-    from bellows_design.study.indent.trial import front
-
     title = f"Indents in the bottom wall of {study.design.name}, against none"
-    best = front([study.plain, *verified]) if verified else study.front
+    best = study.front_of(verified) if verified else study.front
     with two_axes(title, path) as (left, right):
         for axes, over in ((left, _angle), (right, _depth)):
             _kinds(axes, study.trials, over, large=False)

@@ -63,7 +63,11 @@ class IndentStudy:
     @property
     def front(self) -> tuple[Trial, ...]:
         """Tried indents that no other betters, the design without one among them."""
-        return front([self.plain, *self.trials])
+        return self.front_of(self.trials)
+
+    def front_of(self, trials: Sequence[Trial]) -> tuple[Trial, ...]:
+        """The same of other trials."""
+        return front([self.plain, *trials])
 
     @property
     def in_the_paper(self) -> Changes:
