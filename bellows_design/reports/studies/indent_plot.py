@@ -34,7 +34,7 @@ def plot_indents(study: IndentStudy, path: Path, verified: Sequence[Trial] = ())
             _kinds(axes, verified, over, large=True)
             axes.set(ylabel="change of the highest stress, %")
             axes.grid(True, linewidth=0.4, alpha=0.4)
-        left.plot([_angle(trial) for trial in best], _stresses(best), "k-", lw=1, label="front")
+        left.plot([_angle(trial) for trial in best], _stresses(best), "k.-", lw=1, label="front")
         reported = study.in_the_paper
         left.plot(
             reported.bending_angle_percent, reported.max_von_mises_percent, "k*", markersize=14,
