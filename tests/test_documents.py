@@ -145,13 +145,22 @@ def keys_of(content: Any) -> Iterator[str]:
             yield from keys_of(inner)
 
 
+def commands_of(group: Any, before: str = "") -> Iterator[tuple[str, Any]]:
+    """All commands by their whole names, those of sub-commands too."""
+    for name, command in group.commands.items():
+        if hasattr(command, "commands"):
+            yield from commands_of(command, f"{before}{name} ")
+        else:
+            yield f"{before}{name}", command
+
+
 def test_every_command_and_every_option_is_documented() -> None:
     from typer.main import get_command
 
     from bellows_design.cli.commands import app
 
     page = (ROOT / "docs/commands.md").read_text("utf-8")
-    commands = get_command(app).commands  # type: ignore[attr-defined]
+    commands = dict(commands_of(get_command(app)))
     options = {
         name
         for command in commands.values()

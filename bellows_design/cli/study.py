@@ -111,3 +111,24 @@ def sweep(
     answer(
         lambda: look(options, Files(file, csv, parquet), workers, scheduler, retry_failed), as_json
     )
+
+
+def indent(
+    name: DesignName = "prototype_2",
+    points: Annotated[
+        int, typer.Option(metavar="N", help="Indents of each kind that are spread over its room.")
+    ] = 4,
+    accuracy: Accuracy = None,
+    settings: Settings = None,
+    output: Output = None,
+    plot: Plot = None,
+    no_cache: NoCache = False,
+    as_json: AsJson = False,
+) -> None:
+    """Search for the indent that does what the paper's did, and for the one of least stress."""
+    from bellows_design.cli.studies.indent import IndentOptions
+    from bellows_design.cli.studies.indent import indent as search
+
+    options = DesignOptions(name, tuple(settings or ()))
+    how = IndentOptions(points, accuracy, not no_cache)
+    answer(lambda: search(options, how, output, plot), as_json)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from bellows_design.budget import DEFAULT, Budget
 from bellows_design.progress import SILENCE, Progress
 from bellows_design.study.accounts import ACCOUNTS
+from bellows_design.study.changes import Changes, change
 from bellows_design.study.paper import DOI, TABLE_4, Result
 
 if TYPE_CHECKING:
@@ -20,14 +21,6 @@ ANGLE_PERCENT, ANGLE_DEG = 7.0, 10.0
 
 CHANGE_OF_ANGLE, CHANGE_OF_STRESS = 4.0, 5.0
 """%. From these changes on, as the paper prints them, ours must have their sign."""
-
-
-@dataclass(frozen=True)
-class Changes:
-    """Changes of angle and highest stress against Prototype 1, %."""
-
-    bending_angle_percent: float
-    max_von_mises_percent: float
 
 
 @dataclass(frozen=True)
@@ -45,21 +38,17 @@ class Row:
     @property
     def changes(self) -> Changes:
         """Ours."""
-        ours, first = self.evaluation, self.reference
-        return Changes(
-            _change(ours.bending_angle_deg, first.bending_angle_deg),
-            _change(ours.max_von_mises_mpa, first.max_von_mises_mpa),
-        )
+        return Changes.between(self.evaluation, self.reference)
 
     @property
     def angle_off_percent(self) -> float:
         """Our angle against the paper's, %."""
-        return _change(self.evaluation.bending_angle_deg, self.result.bending_angle_deg)
+        return change(self.evaluation.bending_angle_deg, self.result.bending_angle_deg)
 
     @property
     def stress_off_percent(self) -> float:
         """Our highest stress against the paper's, %."""
-        return _change(self.evaluation.max_von_mises_mpa, self.result.max_stress_mpa)
+        return change(self.evaluation.max_von_mises_mpa, self.result.max_stress_mpa)
 
     @property
     def angle_agrees(self) -> bool:
@@ -162,10 +151,6 @@ def compared(
     reference = evaluations[0]
     rows = (Row(*pair, reference) for pair in zip(results, evaluations, strict=True))
     return Comparison(tuple(rows))
-
-
-def _change(value: float, of: float) -> float:
-    return 100 * (value / of - 1)
 
 
 def _same_sign(ours: float, theirs: float, threshold: float) -> bool:

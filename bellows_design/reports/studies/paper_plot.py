@@ -37,7 +37,7 @@ def plot_paper(comparison: Comparison, path: Path) -> None:
         left.set_yticks(range(len(rows)), [row.result.label for row in rows])
         right.set(xlabel="highest von Mises stress, MPa")
         right.set_yticks(range(len(rows)), [""] * len(rows))
-        left.legend(loc="lower right")
+        left.legend(loc="upper right")
 
 
 def _draw(

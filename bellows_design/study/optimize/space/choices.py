@@ -83,12 +83,10 @@ def choices(design: Design, bounds: Bounds) -> tuple[Choice, ...]:
     lines = bounds.lines or tuple(
         range(profile.minimum_lines, profile.minimum_lines + MORE_LINES + 1)
     )
-    combinations = itertools.product(
-        lines, lines, _indents(bounds, profile, min(lines)), (False, True)
-    )
     return tuple(
         Choice(count, bubble, tendon, indent, full)
-        for bubble, tendon, indent, full in combinations
+        for bubble, tendon, full in itertools.product(lines, lines, (False, True))
+        for indent in _indents(bounds, profile, min(bubble, tendon))
         for count in _counts(design, bubble * profile.line_width, bounds)
     )
 
@@ -110,7 +108,7 @@ def _counts(design: Design, wall: float, bounds: Bounds) -> Iterator[int]:
 
 
 def _indents(bounds: Bounds, profile: PrinterProfile, lines: int) -> tuple[int, ...]:
-    """None, and the deepest that leaves the least floor of the thinnest wall."""
+    """None, and the deepest that leaves the least floor of a bottom wall of so many lines."""
     wall = lines * profile.line_width
     deepest = math.floor((wall - profile.minimum_floor) / profile.layer_height + 1e-9)
     return (0, deepest) if bounds.indents and deepest > 0 else (0,)

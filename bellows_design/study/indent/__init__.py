@@ -1,0 +1,1 @@
+"""Which indent in the bottom wall does what: searched for, not assumed."""
