@@ -144,6 +144,7 @@ class Cluster:
         from bellows_design.batch.workers import Answering
 
         self._loop, self._over = asyncio.get_running_loop(), asyncio.Event()
+        self._loop.set_exception_handler(lambda *_: None)  # dask's own, of workers that are killed
         self._changed = asyncio.Condition()
         async with self._place.connected() as client:
             plugin = Answering(self._make)

@@ -167,9 +167,9 @@ def coordinator(folder: Path) -> dict[str, Any]:
     found = {}
     with opened(file, plan.study) as results, closing(Cluster(Stub, ThisMachine(2))) as cluster:
         writing, wall, processor = 0.0, time.perf_counter(), time.process_time()
-        for place, answer in answers(questions, cluster):
+        for came in answers(questions, cluster):
             began = time.perf_counter()
-            results.keep(plan.row(place, questions[place], answer))
+            results.keep(*(plan.row(place, questions[place], answer) for place, answer in came))
             writing += time.perf_counter() - began
         wall, processor = time.perf_counter() - wall, time.process_time() - processor
         found = {

@@ -94,9 +94,9 @@ def _ask(
     with closing(executor()) as at_work:
         began = time.perf_counter()
         pace = Pace(progress, total=len(plan.keys), before=len(plan.keys) - len(left))
-        for place, answer in answers(questions, at_work):
-            results.keep(plan.row(left[place], questions[place], answer))
-            pace.count(answer)
+        for came in answers(questions, at_work):
+            results.keep(*(plan.row(left[at], questions[at], answer) for at, answer in came))
+            pace.count([answer for _, answer in came])
         return at_work.lanes, time.perf_counter() - began
 
 

@@ -166,7 +166,8 @@ def test_a_design_that_crashes_its_worker_fails_and_no_other_one_does():
     questions = [Question(varied(finger, {"bubble_width": width})) for width in widths]
     crashing = Question(varied(finger, {"bubble_width": CRASHING, "tendon_width": 5.0}))
     with closing(Cluster(stub(0.05), ThisMachine(2))) as cluster:
-        found = dict(answers([*questions[:5], crashing, *questions[5:]], cluster))
+        asked = [*questions[:5], crashing, *questions[5:]]
+        found = dict(pair for came in answers(asked, cluster) for pair in came)
     assert [place for place, answer in found.items() if not answer.done] == [5]
     assert found[5].reason == f"its worker died {ALLOWED_FAILURES + 1} times."
 
