@@ -59,7 +59,7 @@ class Session:
             around = self._neighbours().around(question.start)
         if around is None:  # no neighbour can start there
             return self._ordinary(question.design, question)
-        return around.evaluate(question.design, budget=self._budget)
+        return around.evaluate(question.design, budget=self._budget, reach=question.reach)
 
     def _ordinary(self, design: Design, question: Question) -> Evaluation:
         from bellows_design.evaluation import evaluate

@@ -48,6 +48,7 @@ from bellows_design.cli.options import (
     Vtu,
     YieldStrength,
 )
+from bellows_design.cli.studies.optimize_command import optimize
 from bellows_design.cli.study import study
 from bellows_design.cli.templates import Kind
 from bellows_design.materials.laws import BEST
@@ -60,6 +61,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
 )
 app.add_typer(study, name="study")
+app.command()(optimize)
 
 
 @app.callback(invoke_without_command=True)

@@ -86,7 +86,11 @@ class Neighbourhood:
         self._newton: Newton | None = None
 
     def evaluate(
-        self, design: Design, progress: Progress = SILENCE, budget: Budget = DEFAULT
+        self,
+        design: Design,
+        progress: Progress = SILENCE,
+        budget: Budget = DEFAULT,
+        reach: float = REACH,
     ) -> NeighbourEvaluation:
         """``design`` at its design pressure, from the nearest design that is solved here.
 
@@ -97,13 +101,16 @@ class Neighbourhood:
             design: What is evaluated.
             progress: Listens to stages and load.
             budget: Limits of an ordinary evaluation.
+            reach: Distance up to which ends and errors are carried along. Larger ones than the
+                default were not compared with evaluations by themselves: they are for searches that
+                evaluate what they find by itself.
 
         Raises:
             BellowsError, MeshingError: As the ordinary evaluation.
         """
         began = time.perf_counter()
         try:
-            self._require_near(design)
+            self._require_near(design, reach)
             way = self._reached(design, self._nearest(design), MOST_HALVINGS)
             found = self._judged(way)
         except (BellowsError, SolverError) as reason:
@@ -129,7 +136,7 @@ class Neighbourhood:
             return math.inf
         return distance(self.anchor.design, design)
 
-    def _require_near(self, design: Design) -> None:
+    def _require_near(self, design: Design, reach: float) -> None:
         """Raise ``NotReached`` for a design that ends and errors cannot be carried to."""
         anchor = self.anchor.design
         if difference := same_topology(anchor, design, self.anchor.model.name):
@@ -137,10 +144,10 @@ class Neighbourhood:
         apart = distance(anchor, design)
         if math.isinf(apart):
             raise NotReached("its material follows another law")
-        if apart > REACH:
+        if apart > reach:
             raise NotReached(
                 f"it is too far away: by {100 * apart:.3g} % in its numbers, above the "
-                f"{100 * REACH:g} % up to which a neighbour's ends and errors hold"
+                f"{100 * reach:g} % up to which a neighbour's ends and errors hold"
             )
 
     def _nearest(self, design: Design) -> SolvedDesign:

@@ -28,17 +28,29 @@ def require_matplotlib() -> None:
 
 
 @contextmanager
+def one_axes(title: str, path: Path) -> Iterator[Axes]:
+    """One pair of axes; after the block they are written to ``path`` as PNG, as ``two_axes``."""
+    with _axes(title, path, 1, (7.5, 5.2)) as (axes,):
+        yield axes
+
+
+@contextmanager
 def two_axes(title: str, path: Path) -> Iterator[tuple[Axes, Axes]]:
     """Two axes beside each other; after the block they are written to ``path`` as PNG.
 
     The file is complete or not there. Raises ``DesignError`` without matplotlib.
     """
+    with _axes(title, path, 2, (11, 4.8)) as (left, right):
+        yield left, right
+
+
+@contextmanager
+def _axes(title: str, path: Path, number: int, size: tuple[float, float]) -> Iterator[list[Axes]]:
     require_matplotlib()
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(11, 4.8), layout="constrained")
+    figure = Figure(figsize=size, layout="constrained")
     figure.suptitle(title)
-    left, right = figure.subplots(1, 2)
-    yield left, right
+    yield list(figure.subplots(1, number, squeeze=False)[0])
     with replacing(path) as temporary:
         figure.savefig(temporary, dpi=130, format="png")

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from bellows_design.cli.answer import DONE, NOT_SOLVED, Answer, unwritten
 from bellows_design.cli.options import DesignOptions
 from bellows_design.cli.output_files import require_file
+from bellows_design.cli.studies.workers import who_works
 from bellows_design.cli.surroundings.environment import require_working_folder
 from bellows_design.cli.surroundings.memory import EVALUATION, require_address_space
 from bellows_design.cli.surroundings.solving import solving
@@ -18,10 +19,7 @@ from bellows_design.errors import DesignError
 from bellows_design.files.errors import CannotWrite
 
 if TYPE_CHECKING:
-    from bellows_design.batch.executor import Executor
-    from bellows_design.batch.places import Place
     from bellows_design.batch.results import Results
-    from bellows_design.batch.workers import Answerer
     from bellows_design.study.sweep.plan import Space
 
 
@@ -131,33 +129,3 @@ def sweep(
         **outcome.to_dict(),
     }
     return Answer(content, text, DONE if outcome.done else NOT_SOLVED, failure)
-
-
-def who_works(workers: int | None, scheduler: str | None) -> Callable[[], Executor]:
-    """Makes who evaluates: this process (0), others of this machine, or those of a scheduler.
-
-    Raises ``DesignError`` for options that name nobody, and for want of dask.distributed;
-    ``ClusterError`` where no scheduler listens.
-    """
-    from bellows_design.batch.executor import Here
-    from bellows_design.batch.places import Elsewhere, ThisMachine, require_dask
-    from bellows_design.batch.session import Session
-
-    if scheduler is not None:
-        if workers is not None:
-            raise DesignError("--workers are those of this machine; a --scheduler has its own.")
-        require_dask()
-        elsewhere = Elsewhere(scheduler)
-        elsewhere.require_listening()
-        return partial(_cluster, Session, elsewhere)
-    if workers == 0:
-        return lambda: Here(Session())
-    require_dask()
-    machine = ThisMachine.of(workers)
-    return partial(_cluster, partial(Session, budget=machine.budget), machine)
-
-
-def _cluster(make: Callable[[], Answerer], place: Place) -> Executor:
-    from bellows_design.batch.cluster import Cluster
-
-    return Cluster(make, place)

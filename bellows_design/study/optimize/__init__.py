@@ -1,0 +1,1 @@
+"""The best design of a kind, as a front of angle against stress."""

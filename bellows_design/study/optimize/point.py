@@ -1,0 +1,142 @@
+"""A design that was evaluated on the way to the best, its responses and their gradients."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Literal
+
+import numpy as np
+
+from bellows_design.batch.answer import Answer
+from bellows_design.batch.question import Question
+from bellows_design.design.design import Design
+from bellows_design.neighbours.carried import REACH
+from bellows_design.study.optimize.goal import MARGIN, Goal, responses
+from bellows_design.study.optimize.space.choices import Choice
+from bellows_design.study.optimize.space.variables import Variables
+from solver.arrays import Reals
+
+RESPONSES = {
+    "angle": "bending_angle_deg",
+    "stress": "max_von_mises_mpa",
+    "volume": "cavity_volume_mm3",
+}
+"""Names here and in an answer's derivatives."""
+
+STEP = 0.01
+"""Relative step of the difference quotients of the volume of material."""
+
+
+@dataclass(frozen=True)
+class Point:
+    """One evaluated design.
+
+    Attributes:
+        choice: Its counts.
+        variables: Values of the choice's variables.
+        design: The design.
+        answer: What was found.
+        values: Responses by name: ``angle`` (°), ``stress`` (MPa), ``volume`` (mm³), ``strain``,
+            and ``material`` (mm³) where the goal is about it.
+    """
+
+    choice: Choice
+    variables: Reals = field(repr=False)
+    design: Design = field(repr=False)
+    answer: Answer
+    values: dict[str, float]
+
+    @property
+    def ordinary(self) -> bool:
+        """Whether its numbers depend on the design alone."""
+        return self.answer.origin == "ordinary"
+
+    @property
+    def stress_with_error(self) -> float:
+        """Highest stress and its estimated error, MPa; the least error where none is stated."""
+        percent = self.answer.max_von_mises_error_percent
+        return self.values["stress"] * (1 + (MARGIN if percent is None else percent / 100))
+
+
+@dataclass(frozen=True)
+class Request:
+    """A design that a search wants evaluated, and from where.
+
+    Attributes:
+        variables: Of its choice.
+        values: Theirs.
+        start: ``ordinary``, or the design whose neighbour it is.
+        reach: Distance up to which it is one.
+    """
+
+    variables: Variables
+    values: Reals
+    start: Design | Literal["ordinary"]
+    reach: float = REACH
+
+    @cached_property
+    def question(self) -> Question:
+        """What is asked, with derivatives."""
+        return Question(
+            self.variables.design(self.values), self.start, derivatives=True, reach=self.reach
+        )
+
+    def point(self, answer: Answer, goal: Goal) -> Point | None:
+        """The point of an answer; None where the evaluation failed."""
+        if not answer.done:
+            return None
+        design, found = self.question.design, responses(answer)
+        if goal.quantity == "material":
+            found["material"] = material_volume(design)
+        return Point(self.variables.choice, self.values, design, answer, found)
+
+
+def gradients(point: Point, variables: Variables, goal: Goal) -> dict[str, Reals]:
+    """Of the logarithm of each response by the logarithm of each variable (elasticities).
+
+    A strain changes as the stress does, which is all that is known of it: near enough for a step.
+    """
+    derivatives = point.answer.derivatives or {}
+    found = {
+        name: variables.gradient(point.variables, derivatives[key])
+        * point.variables
+        / point.values[name]
+        for name, key in RESPONSES.items()
+    }
+    found["strain"] = found["stress"]
+    if goal.quantity == "material":
+        found["material"] = _material_gradient(point, variables)
+    return found
+
+
+def material_volume(design: Design) -> float:
+    """Volume of the printed part, mm³."""
+    from bellows_design.geometry.actuator import printed_part
+
+    return float(printed_part(design.bellows, design.indent, design.port).solid.Volume())
+
+
+def _material_gradient(point: Point, variables: Variables) -> Reals:
+    """By central differences of the CAD solid, which cost about as much as one solution."""
+    found = np.zeros(len(point.variables))
+    for index in range(len(found)):
+        ends = []
+        for sign in (1.0, -1.0):
+            moved = point.variables.copy()
+            moved[index] *= 1 + sign * STEP
+            ends.append((moved[index], _material_or_none(variables, moved)))
+        (high, ahead), (low, behind) = ends
+        ahead = point.values["material"] if ahead is None else ahead
+        behind = point.values["material"] if behind is None else behind
+        found[index] = np.log(ahead / behind) / np.log(high / low)
+    return found
+
+
+def _material_or_none(variables: Variables, values: Reals) -> float | None:
+    from bellows_design.errors import BellowsError
+
+    try:
+        return material_volume(variables.design(values))
+    except BellowsError:
+        return None

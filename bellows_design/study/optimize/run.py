@@ -1,0 +1,203 @@
+"""An optimization from its options to its optimum: searched, verified, corrected."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable
+from contextlib import closing
+from dataclasses import dataclass, replace
+from typing import Any
+
+from bellows_design.batch.executor import Executor
+from bellows_design.batch.results import Results, Study
+from bellows_design.budget import DEFAULT, Budget
+from bellows_design.progress import SILENCE, Progress
+from bellows_design.study.optimize.coordinator import Coordinator
+from bellows_design.study.optimize.front import front
+from bellows_design.study.optimize.point import Point
+from bellows_design.study.optimize.space.passage import filling_seconds
+from bellows_design.study.optimize.stages import Optimization
+from bellows_design.study.optimize.verification import Verification, verified
+
+VERIFYING = 0.2
+"""Fraction of the time that is kept for the verification of the best."""
+
+MOST_CORRECTIONS = 2
+"""So often a best design that does not hold is sought again, within a lower limit."""
+
+PAUSE = 2.0
+"""s. Least time between two lines of progress."""
+
+
+@dataclass(frozen=True)
+class Optimum:
+    """What an optimization found.
+
+    Attributes:
+        optimization: What was asked.
+        best: The best design that keeps all limits; None if none was found.
+        front: Designs that no other one beats in angle and stress together, by rising stress.
+        points: Every design that was evaluated, in this run or one before.
+        verification: Of the best; None without one.
+        asked, known, failed: Designs evaluated now, known from before, and without a result.
+        seconds: Of this run.
+        evaluation_seconds: Of all evaluations of this run together, on all workers.
+        in_time: Whether all stages came to their ends.
+    """
+
+    optimization: Optimization
+    best: Point | None
+    front: tuple[Point, ...]
+    points: tuple[Point, ...]
+    verification: Verification | None
+    asked: int
+    known: int
+    failed: int
+    seconds: float
+    evaluation_seconds: float
+    in_time: bool
+
+    @property
+    def filling_seconds(self) -> float | None:
+        """Time that air takes to fill the best design; None without one, and of a vacuum."""
+        best = self.best
+        if best is None or best.design.load.pressure <= 0:
+            return None
+        return filling_seconds(best.design, best.values["volume"])
+
+
+def study_of(optimization: Optimization) -> Study:
+    """What a results file of it belongs to."""
+    goal, bounds, effort = optimization.goal, optimization.bounds, optimization.effort
+    return Study(
+        "optimum",
+        optimization.base,
+        {
+            "quantity": goal.quantity,
+            "most_stress_mpa": goal.most_stress_mpa,
+            "least_angle_deg": goal.least_angle_deg,
+            "most_strain": goal.most_strain,
+            **{name: _plain(value) for name, value in vars(bounds).items()},
+            "seed": effort.seed,
+        },
+    )
+
+
+def optimize(
+    optimization: Optimization,
+    results: Results,
+    executor: Callable[[], Executor],
+    minutes: float,
+    verify: bool = True,
+    half: bool = True,
+    progress: Progress = SILENCE,
+    budget: Budget = DEFAULT,
+) -> Optimum:
+    """Search, verify the best, and search again within a lower limit if it does not hold.
+
+    Args:
+        optimization: What is sought, and where.
+        results: Of its study; every answer is there before the next one is waited for.
+        executor: Makes who evaluates.
+        minutes: Time for all of it; what is being evaluated then is waited for.
+        verify: Verify the best on finer meshes.
+        half: Also by the half actuator.
+        progress: Is told how far it is, and the best so far.
+        budget: Of each evaluation of the verification.
+
+    Raises:
+        ClusterError: Nobody evaluates any more.
+        CannotWrite: The results cannot be written.
+    """
+    began = time.monotonic()
+    searching = 60 * minutes * (1 - VERIFYING if verify else 1)
+    report = _Report(progress, began, minutes)
+    progress.stage("starting workers")
+    with closing(executor()) as at_work:
+        coordinator = Coordinator(
+            optimization.goal, results, at_work, began + searching, report.told
+        )
+        optimization.search(coordinator)
+        in_time = not coordinator.late
+        best, verification = coordinator.best(), None
+        if verify and best is not None:
+            coordinator.deadline = began + 60 * minutes
+            best, verification = _verified(optimization, coordinator, best, half, progress, budget)
+    return Optimum(
+        optimization,
+        best,
+        front(coordinator.points),
+        tuple(coordinator.points),
+        verification,
+        coordinator.asked,
+        coordinator.known,
+        coordinator.failed,
+        time.monotonic() - began,
+        coordinator.working_seconds,
+        in_time,
+    )
+
+
+def _verified(
+    optimization: Optimization,
+    coordinator: Coordinator,
+    best: Point,
+    half: bool,
+    progress: Progress,
+    budget: Budget,
+) -> tuple[Point, Verification]:
+    """The best and what its verification says; sought again within a lower limit if it fails."""
+    found = verified(best.design, half, progress, budget)
+    limit = optimization.goal.most_stress_mpa
+    for _ in range(MOST_CORRECTIONS):
+        if found.stress_with_error_mpa <= limit or coordinator.late:
+            break
+        excess = found.stress_with_error_mpa / limit
+        corrected = optimization.goal.most_stress_mpa / math.pow(excess, 1.1)
+        goal = replace(optimization.goal, most_stress_mpa=corrected)
+        optimization = replace(optimization, goal=goal)
+        descent = optimization.descent(best.variables, best.choice, goal, coordinator)
+        before = len(coordinator.points)
+        coordinator.lead([descent.search()])
+        kept = [p for p in coordinator.points[before:] if p.ordinary and goal.kept(p.values)]
+        if not kept:
+            break
+        best = min(kept, key=lambda point: goal.merit(point.values))
+        found = verified(best.design, half, progress, budget)
+    return best, found
+
+
+@dataclass
+class _Report:
+    """Tells how far a search is: a counter that belongs to one run."""
+
+    progress: Progress
+    began: float
+    minutes: float
+    _told: float = 0.0
+
+    def told(self, at: Coordinator) -> None:
+        """After every answer; says something now and then."""
+        now = time.monotonic()
+        if now - self._told < PAUSE:
+            return
+        self._told = now
+        spent = (now - self.began) / 60
+        known = f", {at.known} known before" if at.known else ""
+        self.progress.stage(
+            f"{at.asked} designs evaluated{known}, {spent:.1f} of {self.minutes:g} min; "
+            f"{_best_text(at)}"
+        )
+
+
+def _best_text(at: Coordinator) -> str:
+    best = at.best()
+    if best is None:
+        return "none keeps the limits so far"
+    values = best.values
+    return f"best {values['angle']:.0f}° at {values['stress']:.2f} MPa, {best.choice.text}"
+
+
+def _plain(value: Any) -> Any:
+    return list(value) if isinstance(value, tuple) else value

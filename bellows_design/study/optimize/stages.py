@@ -1,0 +1,182 @@
+"""The stages of an optimization: all choices roughly, a few by gradients, those around the best.
+
+Global: designs of all choices, each by itself. Descents: by gradients, from the best starts of
+different choices. Around: the choices that differ in one count from the best one's, from its
+lengths, as long as that helps. Front: from the best, at lower and higher limits of the stress.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from bellows_design.design.design import Design
+from bellows_design.study.optimize.coordinator import Coordinator
+from bellows_design.study.optimize.descent import Descent
+from bellows_design.study.optimize.global_stage import GlobalStage
+from bellows_design.study.optimize.goal import Goal
+from bellows_design.study.optimize.point import Point, Request
+from bellows_design.study.optimize.space.choices import Bounds, Choice, choices
+from bellows_design.study.optimize.space.variables import Variables
+from solver.arrays import Reals
+
+WAVE = 4
+"""Designs of the global stage that are chosen at once: the same whoever evaluates them."""
+
+FRONT_LIMITS = (0.95, 0.875, 0.8, 1.1)
+"""Limits of the stress for the front, over the goal's."""
+
+
+@dataclass(frozen=True)
+class Effort:
+    """How much is looked at, where time does not end it before.
+
+    Attributes:
+        global_designs: Of the global stage.
+        starts: Descents after it.
+        front_limits: Limits of the stress for which the front is sought, over the goal's.
+        gradients: Whether there are descents at all.
+        seed: Of the global stage.
+    """
+
+    global_designs: int = 32
+    starts: int = 4
+    front_limits: tuple[float, ...] = FRONT_LIMITS
+    gradients: bool = True
+    seed: int = 0
+
+
+@dataclass(frozen=True)
+class Optimization:
+    """What is optimized: everything that decides which designs are asked for.
+
+    Attributes:
+        base: The design that all is taken from but the variables and counts.
+        goal: What is sought.
+        bounds: Of the counts.
+        effort: How much is looked at.
+    """
+
+    base: Design
+    goal: Goal
+    bounds: Bounds = field(default_factory=Bounds)
+    effort: Effort = field(default_factory=Effort)
+
+    def variables(self, choice: Choice) -> Variables:
+        """Those of one choice."""
+        return Variables(self.base, choice, self.bounds)
+
+    def search(self, at: Coordinator) -> None:
+        """Go through all stages; the points are the coordinator's."""
+        all_choices = choices(self.base, self.bounds)
+        at.evaluated([self._base_request(all_choices)])
+        self._global(at, all_choices)
+        if self.effort.gradients:
+            self._lead(at, self._starts(at))
+            self._around_the_best(at, all_choices)
+            self._front(at)
+
+    def descent(self, start: Reals, choice: Choice, goal: Goal, at: Coordinator) -> Descent:
+        """Of one choice from values of its variables."""
+        best = at.best()
+        bar = np.inf if best is None or goal != self.goal else goal.merit(best.values)
+        return Descent(self.variables(choice), goal, start, float(bar))
+
+    def _base_request(self, all_choices: Sequence[Choice]) -> Request:
+        """The base itself, as near as whole lines and the room allow."""
+        choice = nearest_choice(self.base, all_choices)
+        variables = self.variables(choice)
+        values = variables.rounded(variables.values(self.base))
+        return Request(variables, values, "ordinary")
+
+    def _global(self, at: Coordinator, all_choices: Sequence[Choice]) -> None:
+        stage = GlobalStage(all_choices, self.variables, self.effort.seed)
+        left = self.effort.global_designs
+        while left > 0 and not at.late:
+            wave = stage.suggestions(min(WAVE, left))
+            if not wave:
+                return
+            left -= len(wave)
+            requests = [Request(each.variables, each.values, "ordinary") for each in wave]
+            for each, point in zip(wave, at.evaluated(requests), strict=True):
+                stage.tell(each, None if point is None else self.goal.merit(point.values))
+
+    def _starts(self, at: Coordinator) -> Iterator[Point]:
+        """The best points of different choices."""
+        best: dict[Choice, Point] = {}
+        for point in sorted(at.points, key=lambda each: self.goal.merit(each.values)):
+            best.setdefault(point.choice, point)
+        yield from list(best.values())[: self.effort.starts]
+
+    def _lead(self, at: Coordinator, starts: Iterable[Point], goal: Goal | None = None) -> None:
+        at.lead(
+            self.descent(each.variables, each.choice, goal or self.goal, at).search()
+            for each in starts
+        )
+
+    def _around_the_best(self, at: Coordinator, all_choices: Sequence[Choice]) -> None:
+        """Descents of the choices beside the best one's, until none of them is better."""
+        looked_at: set[Choice] = set()
+        best = at.best() or at.best(kept=False)
+        while best is not None and not at.late and best.choice not in looked_at:
+            looked_at.add(best.choice)
+            others = [each for each in beside(best.choice, all_choices) if each not in looked_at]
+            at.lead(
+                self.descent(self.variables(each).values(best.design), each, self.goal, at).search()
+                for each in others
+            )
+            best = at.best() or at.best(kept=False)
+
+    def _front(self, at: Coordinator) -> None:
+        """Descents from the best at other limits of the stress."""
+        best = at.best()
+        if best is None or self.goal.quantity != "angle":
+            return
+        goals = [
+            replace(self.goal, most_stress_mpa=share * self.goal.most_stress_mpa)
+            for share in self.effort.front_limits
+        ]
+        at.lead(self.descent(best.variables, best.choice, goal, at).search() for goal in goals)
+
+
+def nearest_choice(design: Design, all_choices: Sequence[Choice]) -> Choice:
+    """The choice that differs least from a design in its counts."""
+    profile, p = design.profile(), design.bellows
+    depth = 0.0 if design.indent is None else design.indent.depth
+    wanted = (
+        p.bubble_count,
+        p.bubble_thickness / profile.line_width,
+        p.tendon_thickness / profile.line_width,
+        depth / profile.layer_height,
+        float(p.chamber_fillet >= p.chamber_length / 2 - 1e-9),
+    )
+
+    def apart(choice: Choice) -> float:
+        counts = (
+            choice.bubbles,
+            choice.bubble_lines,
+            choice.tendon_lines,
+            choice.indent_layers,
+            float(choice.full_round),
+        )
+        return sum(abs(one - other) for one, other in zip(wanted, counts, strict=True))
+
+    return min(all_choices, key=apart)
+
+
+def beside(choice: Choice, all_choices: Sequence[Choice]) -> tuple[Choice, ...]:
+    """Choices that differ in one count: a bubble or a line more or less, an indent or none."""
+    found = []
+    for other in all_choices:
+        differing = [
+            (getattr(choice, name), getattr(other, name))
+            for name in Choice.__dataclass_fields__
+            if getattr(choice, name) != getattr(other, name)
+        ]
+        steps = [abs(one - another) for one, another in differing]
+        indent = choice.indent_layers != other.indent_layers
+        if len(differing) == 1 and (indent or steps[0] == 1):
+            found.append(other)
+    return tuple(found)

@@ -1,0 +1,139 @@
+"""Whether an optimum holds: its part, a finer mesh of the cell, and the half actuator.
+
+A search goes by three meshes of a cell. What it found is decided upon as ``bellows run`` does, on
+as many meshes as its limits need, and compared with the half actuator, which has its own ends.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from bellows_design.budget import DEFAULT, Budget
+from bellows_design.design.design import Design
+from bellows_design.progress import SILENCE, Progress
+
+if TYPE_CHECKING:
+    from bellows_design.analysis.evaluation import Evaluation, LoadedState
+    from bellows_design.approval import Verdict
+    from printers import PrintabilityReport
+
+ACCURACY_PERCENT = 2.0
+"""The cell's meshes are refined to this estimated error of angle and stress, the least there is of
+a stress, or as far as the budget allows."""
+
+
+@dataclass(frozen=True)
+class Verification:
+    """What speaks for and against an optimum.
+
+    Attributes:
+        design: The design.
+        report: Printability of its part.
+        cell: The usual model on finer meshes.
+        verdict: By both.
+        half: The half actuator; None if it was not asked for.
+        failure: Why the half actuator gave no result; empty if it did, or was not asked for.
+    """
+
+    design: Design
+    report: PrintabilityReport
+    cell: Evaluation
+    verdict: Verdict
+    half: Evaluation | None = None
+    failure: str = ""
+
+    @property
+    def stress_with_error_mpa(self) -> float:
+        """Highest stress of any model that was solved, including its estimated error."""
+        return max(_with_error(each) for each in (self.cell, self.half) if each is not None)
+
+    @property
+    def holds(self) -> bool:
+        """Whether the design is approved, and by the half actuator too where there is one."""
+        limit = self.design.max_von_mises
+        half_failed = self.half is not None and not self.half.converged
+        return self.verdict.approved and not half_failed and self.stress_with_error_mpa <= limit
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain values for JSON."""
+        return {
+            "holds": self.holds,
+            **self.verdict.to_dict(),
+            "cell": _summary(self.cell),
+            "half": None if self.half is None else _summary(self.half),
+            "half_failure": self.failure or None,
+        }
+
+
+def verified(
+    design: Design,
+    half: bool = True,
+    progress: Progress = SILENCE,
+    budget: Budget = DEFAULT,
+) -> Verification:
+    """Check the part, and evaluate the design on finer meshes.
+
+    Args:
+        design: What was found.
+        half: Also by the half actuator, which takes about a minute.
+        progress: Listens to stages and load.
+        budget: Of each evaluation.
+
+    Raises:
+        BellowsError, MeshingError: As checks and evaluations.
+    """
+    from bellows_design import pipeline
+    from bellows_design.approval import decide, open_question
+    from bellows_design.evaluation import evaluate
+
+    def question(state: LoadedState) -> str:
+        return open_question(design, report, state)
+
+    progress.stage(f"check of {design.name}")
+    report = pipeline.check(design, pipeline.build_part(design))
+    cell = evaluate(
+        design,
+        accuracy_percent=ACCURACY_PERCENT,
+        progress=progress,
+        budget=budget,
+        open_question=question,
+    )
+    found = Verification(design, report, cell, decide(design, report, cell))
+    return _with_half(found, progress, budget) if half else found
+
+
+def _with_half(found: Verification, progress: Progress, budget: Budget) -> Verification:
+    from dataclasses import replace
+
+    from bellows_design.errors import BellowsError
+    from bellows_design.evaluation import evaluate
+    from solver.errors import SolverError
+
+    try:
+        half = evaluate(found.design, "half", progress=progress, budget=budget)
+    except (BellowsError, SolverError) as error:
+        return replace(found, failure=str(error))
+    return replace(found, half=half)
+
+
+def _with_error(state: Evaluation) -> float:
+    percent = state.error_estimate.max_von_mises_percent or 0.0
+    return state.max_von_mises_mpa * (1 + percent / 100)
+
+
+def _summary(found: Evaluation) -> dict[str, Any]:
+    return {
+        "bending_angle_deg": found.bending_angle_deg,
+        "max_von_mises_mpa": found.max_von_mises_mpa,
+        "error_estimate": {
+            "bending_angle_percent": found.error_estimate.bending_angle_percent,
+            "max_von_mises_percent": found.error_estimate.max_von_mises_percent,
+        },
+        "elements": found.mesh.elements,
+        "converged": found.converged,
+        "message": found.message,
+        "contact": found.contact.detected,
+        "min_gap_mm": found.contact.min_gap_mm,
+        "seconds": found.seconds.to_dict(),
+    }
