@@ -62,7 +62,7 @@ class _Lane:
 
 
 class Cluster:
-    """An executor with a lane for each worker, from the moment that the first worker is there.
+    """An executor with a lane for each worker.
 
     A lane stays with its worker, which remembers what it solved; while that one is gone it takes
     any that is idle. All of dask runs in one event loop, in a thread of its own.
@@ -127,7 +127,7 @@ class Cluster:
                 self._loop.call_soon_threadsafe(self._over.set)
             pending, self._pending = self._pending, set()
         for asked in pending:
-            if not asked.answer.done() and not asked.answer.cancel():
+            if not asked.answer.done():
                 asked.answer.set_exception(self._ended)
 
     def _run(self) -> None:
@@ -144,6 +144,7 @@ class Cluster:
         from bellows_design.batch.workers import Answering
 
         self._loop, self._over = asyncio.get_running_loop(), asyncio.Event()
+        self._loop.set_exception_handler(lambda *_: None)  # dask's own, of workers that are killed
         self._changed = asyncio.Condition()
         async with self._place.connected() as client:
             plugin = Answering(self._make)
@@ -214,8 +215,9 @@ class Cluster:
         try:
             while True:
                 asked = await lane.waiting.get()
-                begun = asked.answer.set_running_or_notify_cancel()
-                while begun and not asked.answer.done():
+                if not asked.answer.done():  # by the end, or as nobody waits for it any more
+                    asked.answer.set_running_or_notify_cancel()
+                while not asked.answer.done():
                     async with self._worker_of(lane) as address:
                         await self._ask(client, plugin, address, asked)
                 with self._lock:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from concurrent.futures import Future
-from itertools import pairwise
+from itertools import pairwise, takewhile
 from queue import SimpleQueue
+from typing import TypeVar
 
 from bellows_design.batch.answer import Answer
 from bellows_design.batch.executor import Executor
@@ -39,27 +40,50 @@ class Dealing:
         return rest[0] if rest else None
 
 
-def answers(questions: Sequence[Question], executor: Executor) -> Iterator[tuple[int, Answer]]:
-    """Place and answer of each question, as they come; all lanes work while the caller does.
+Came = list[tuple[int, Answer]]
+"""Places of questions, and their answers, that came since the last time."""
+
+
+def answers(questions: Sequence[Question], executor: Executor) -> Iterator[Came]:
+    """Answers as they come, each with the place of its question; all lanes work meanwhile.
+
+    Where many come at once they come together, so that the caller can keep them together.
 
     Raises ``ClusterError`` where nobody works any more, after all that was answered before.
     """
     dealing = Dealing(len(questions), max(1, executor.lanes))
-    came: SimpleQueue[tuple[int, int, Future[Answer]]] = SimpleQueue()
+    ended: SimpleQueue[tuple[int, int, Future[Answer]]] = SimpleQueue()
 
     def ask(lane: int) -> int:
         place = dealing.next(lane)
         if place is None:
             return 0
         future = executor.submit(questions[place], lane)
-        future.add_done_callback(lambda done: came.put((lane, place, done)))
+        future.add_done_callback(lambda done: ended.put((lane, place, done)))
         return 1
 
     lanes = executor.lanes
     asked = sum(ask(lane) for _ in range(AHEAD) for lane in range(lanes))
     while asked:
-        lane, place, future = came.get()
+        found = _all_of(ended)
         new = range(lanes, executor.lanes)
         lanes += len(new)
-        asked += ask(lane) - 1 + sum(ask(each) for _ in range(AHEAD) for each in new)
-        yield place, future.result()
+        asked -= len(found)
+        asked += sum(ask(lane) for lane, _, _ in found)
+        asked += sum(ask(lane) for _ in range(AHEAD) for lane in new)
+        good = list(takewhile(lambda each: each[2].exception() is None, found))
+        if good:
+            yield [(place, future.result()) for _, place, future in good]
+        for _, _, future in found[len(good) :]:
+            future.result()
+
+
+Item = TypeVar("Item")
+
+
+def _all_of(queue: SimpleQueue[Item]) -> list[Item]:
+    """All that a queue holds; waits for the first."""
+    found = [queue.get()]
+    while not queue.empty():
+        found.append(queue.get())
+    return found

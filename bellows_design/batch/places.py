@@ -134,17 +134,21 @@ class Elsewhere:
     @asynccontextmanager
     async def connected(self) -> AsyncIterator[Any]:
         """A client of that scheduler. Raises ``ClusterError`` if none answers."""
-        distributed = _distributed()
-        try:
-            client = await distributed.Client(
-                self.scheduler, asynchronous=True, timeout=CONNECT_SECONDS
-            )
-        except (OSError, ValueError) as error:
+        client = _distributed().Client(self.scheduler, asynchronous=True, timeout=CONNECT_SECONDS)
+        try:  # its own time does not count where something else listens there and says nothing
+            await asyncio.wait_for(_ready(client), CONNECT_SECONDS)
+        except (OSError, ValueError, TimeoutError) as error:
+            with suppress(Exception):
+                await asyncio.wait_for(client.close(), LOOK_SECONDS)
             raise ClusterError(
                 f"no scheduler answers at {quoted(self.scheduler)} within {CONNECT_SECONDS:g} s."
             ) from error
         async with client:
             yield client
+
+
+async def _ready(client: Any) -> None:
+    await client
 
 
 async def _worker(scheduler: str) -> None:

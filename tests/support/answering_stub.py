@@ -46,3 +46,23 @@ class Stub:
 def stub(seconds: float = 0.0, log: Path | None = None) -> partial[Stub]:
     """What makes a stub in a worker."""
     return partial(Stub, seconds, log)
+
+
+class Threads:
+    """Answers with what tells the libraries of its process how many threads they may have."""
+
+    def answer(self, question: Question) -> Answer:
+        """As the reason: values of the environment, and numba's number."""
+        import numba
+
+        names = ("OMP_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
+        found = [*(os.environ.get(name, "none") for name in names), str(numba.get_num_threads())]
+        return Answer(key=question.key, digest="", reason=" ".join(found))
+
+
+class Faulty:
+    """Raises what no evaluation raises."""
+
+    def answer(self, question: Question) -> Answer:
+        """Never."""
+        raise RuntimeError("no such luck")

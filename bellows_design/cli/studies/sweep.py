@@ -115,6 +115,7 @@ def sweep(
     from bellows_design.study.sweep.run import run
 
     with solving() as progress:
+        progress.stage("which designs, and in which order")
         plan = planned(space)
         with opened(files.results, plan.study) as results:
             outcome = run(plan, results, executor, retry_failed, progress)

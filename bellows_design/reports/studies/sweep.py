@@ -35,7 +35,9 @@ def _counts(outcome: Outcome, answers: Sequence[Answer]) -> Iterator[tuple[str, 
     neighbours = sum(each.origin == "neighbour" for each in answers)
     yield "designs", str(outcome.designs)
     yield "done", f"{outcome.done}, {neighbours} of them from a neighbour"
-    yield "failed", f"{outcome.failed}, and {outcome.impossible} are no design"
+    yield "failed", str(outcome.failed)
+    if outcome.impossible:
+        yield "no design", f"{outcome.impossible}, as their numbers do not fit together"
     if outcome.per_minute is not None:
         rate = f"{outcome.asked} in {outcome.seconds:.0f} s, {outcome.per_minute:.3g} a minute"
         yield "this run", f"{rate}, {outcome.workers} at work"

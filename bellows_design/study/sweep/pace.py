@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 from bellows_design.batch.answer import Answer
@@ -32,10 +32,10 @@ class Pace:
         kept = f", {self.before} of them before" if self.before else ""
         self.progress.stage(f"{self.total} designs{kept}")
 
-    def count(self, answer: Answer) -> None:
-        """Another answer came."""
-        self._came += 1
-        self._failed += not answer.done
+    def count(self, came: Sequence[Answer]) -> None:
+        """More answers came."""
+        self._came += len(came)
+        self._failed += sum(not answer.done for answer in came)
         now = self.clock()
         last = self.before + self._came == self.total
         if last or now - self._told >= max(PAUSE, SHARE * (now - self._began)):

@@ -138,14 +138,16 @@ def planned(space: Space) -> Plan:
     found = points(space.axes, space.sampling, space.number, space.seed)
     draft = Plan(space, found, np.arange(len(found)), (), {})
     impossible: dict[int, str] = {}
-    kinds: dict[str, tuple[int, Hashable]] = {}  # key -> place and topology
+    kinds: dict[str, tuple[int, int]] = {}  # key -> place and number of the topology
+    topologies: dict[Hashable, int] = {}
     for place in range(len(found)):
         try:
             question = draft.question(place)
         except DesignError as error:
             impossible[place] = " ".join(error.sentences)
         else:
-            kinds.setdefault(question.key, (place, _topology(question.design)))
+            kind = topologies.setdefault(_topology(question.design), len(topologies))
+            kinds.setdefault(question.key, (place, kind))
     places = np.array([place for place, _ in kinds.values()], dtype=np.intp)
     order = ordered(_relative(space.axes, found)[places], [kind for _, kind in kinds.values()])
     keys = tuple(kinds)

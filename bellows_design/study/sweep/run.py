@@ -77,10 +77,7 @@ def run(
         if before.get(key) is None or before[key] in asked_again
     ]
     _tell_of_versions(results, progress)
-    began, workers = time.perf_counter(), 0
-    if left:
-        workers = _ask(plan, results, executor, left, progress)
-    seconds = time.perf_counter() - began
+    workers, seconds = _ask(plan, results, executor, left, progress) if left else (0, 0.0)
     return _outcome(plan, results, len(left), seconds, workers)
 
 
@@ -90,16 +87,17 @@ def _ask(
     executor: Callable[[], Executor],
     left: list[int],
     progress: Progress,
-) -> int:
-    """Have the questions at those positions answered; how many workers there were at last."""
+) -> tuple[int, float]:
+    """Have the questions at those positions answered; how many worked at last, and seconds."""
     progress.stage("starting workers")
     questions = Questions(plan, left)
     with closing(executor()) as at_work:
+        began = time.perf_counter()
         pace = Pace(progress, total=len(plan.keys), before=len(plan.keys) - len(left))
-        for place, answer in answers(questions, at_work):
-            results.keep(plan.row(left[place], questions[place], answer))
-            pace.count(answer)
-        return at_work.lanes
+        for came in answers(questions, at_work):
+            results.keep(*(plan.row(left[at], questions[at], answer) for at, answer in came))
+            pace.count([answer for _, answer in came])
+        return at_work.lanes, time.perf_counter() - began
 
 
 def _outcome(plan: Plan, results: Results, asked: int, seconds: float, workers: int) -> Outcome:

@@ -36,7 +36,7 @@ class Axis:
 
     def __str__(self) -> str:
         number = "" if self.number is None else f":{self.number}"
-        return f"{self.name}={self.low:.17g}:{self.high:.17g}{number}"
+        return f"{self.name}={self.low!r}:{self.high!r}{number}"
 
 
 def axes(texts: Iterable[str], base: Design) -> tuple[Axis, ...]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from concurrent.futures import Future
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bellows_design.batch.answer import Answer
@@ -17,6 +17,7 @@ from bellows_design.errors import ClusterError
 FINGER = load_design("finger")
 
 
+@settings(deadline=None)  # other work on the machine is no fault
 @given(st.integers(0, 200), st.integers(1, 8), st.randoms())
 def test_every_question_is_dealt_once_whoever_asks(number, lanes, chance):
     dealing, dealt = Dealing(number, lanes), []
@@ -58,7 +59,8 @@ class Lanes:
 def test_answers_come_with_the_place_of_their_question():
     lanes = Lanes(3)
     questions = [f"question {place}" for place in range(50)]
-    assert {place: a.key for place, a in answers(questions, lanes)} == dict(enumerate(questions))
+    found = {place: answer.key for came in answers(questions, lanes) for place, answer in came}
+    assert found == dict(enumerate(questions))
     assert {lane for lane, _ in lanes.asked} == {0, 1, 2}
 
 
@@ -69,9 +71,7 @@ def test_a_lane_has_no_more_than_two_questions_at_once():
             return Future() if len(self.asked) > 4 else future
 
     lanes = Slow(2)
-    found = answers(list(range(100)), lanes)
-    for _ in range(4):
-        next(found)
+    next(answers(list(range(100)), lanes))
     outstanding = [lane for lane, _ in lanes.asked[4:]]
     assert all(outstanding.count(lane) == AHEAD for lane in (0, 1))
 
@@ -81,15 +81,17 @@ def test_lanes_that_come_later_are_used():
     found = answers(list(range(20)), lanes)
     next(found)
     lanes.lanes = 2
-    assert len(list(found)) == 19
+    assert sum(map(len, found)) == 18
     assert 1 in {lane for lane, _ in lanes.asked}
 
 
 def test_what_was_answered_comes_before_it_is_said_that_nobody_works_any_more():
     found = answers(list(range(20)), Lanes(1, lost_after=7))
-    assert [next(found)[0] for _ in range(7)] == list(range(7))
+    places = []
     with pytest.raises(ClusterError):
-        next(found)
+        for came in found:
+            places += [place for place, _ in came]
+    assert places == list(range(7))
 
 
 def test_no_question_no_answer():

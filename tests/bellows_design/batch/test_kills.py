@@ -19,6 +19,7 @@ import pytest
 import stub_sweep
 from answering_stub import CRASHING, stub
 
+from bellows_design.batch.answer import Answer
 from bellows_design.batch.cluster import ALLOWED_FAILURES, Cluster
 from bellows_design.batch.dealing import answers
 from bellows_design.batch.places import ThisMachine
@@ -49,7 +50,12 @@ def program(*arguments: object) -> Iterator[subprocess.Popen[str]]:
     """A Python program in a session of its own, of which nothing is left after the block."""
     words = [sys.executable, *map(str, arguments)]
     process = subprocess.Popen(
-        words, env=environment(), text=True, stderr=subprocess.PIPE, start_new_session=True
+        words,
+        env=environment(),
+        text=True,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        start_new_session=True,
     )
     try:
         yield process
@@ -160,7 +166,8 @@ def test_a_design_that_crashes_its_worker_fails_and_no_other_one_does():
     questions = [Question(varied(finger, {"bubble_width": width})) for width in widths]
     crashing = Question(varied(finger, {"bubble_width": CRASHING, "tendon_width": 5.0}))
     with closing(Cluster(stub(0.05), ThisMachine(2))) as cluster:
-        found = dict(answers([*questions[:5], crashing, *questions[5:]], cluster))
+        asked = [*questions[:5], crashing, *questions[5:]]
+        found = dict(pair for came in answers(asked, cluster) for pair in came)
     assert [place for place, answer in found.items() if not answer.done] == [5]
     assert found[5].reason == f"its worker died {ALLOWED_FAILURES + 1} times."
 
@@ -197,3 +204,59 @@ def test_a_scheduler_that_is_killed_is_told_of_and_the_sweep_goes_on_with_anothe
         assert process.wait(300) == 0
     assert nothing_lost(rows, kept(file))
     require_whole(file)
+
+
+def sweep(file: Path, workers: int):
+    """The real command with real evaluations of six designs."""
+    grid = ("--vary", "bubble_width=19.4:20:3", "--vary", "tendon_width=5.8:6:2")
+    command = ("-m", "bellows_design", "study", "sweep", "finger", *grid, "--json")
+    return program(*command, "--file", file, "--workers", workers)
+
+
+@pytest.mark.slow
+def test_results_agree_within_their_estimates_with_one_or_two_workers_killed_or_not(tmp_path):
+    one, two = tmp_path / "one.sqlite", tmp_path / "two.sqlite"
+    with sweep(one, 1) as process:
+        out, _ = process.communicate(timeout=600)
+        assert json.loads(out)["done"] == 6
+    with sweep(two, 2) as process:
+        wait_until(lambda: kept(two), 300)
+        workers_of(process)[0].kill()
+        already = len(kept(two))
+        wait_until(lambda: len(kept(two)) > already, 300)
+        process.kill()
+    before = kept(two)
+    with sweep(two, 2) as process:
+        out, _ = process.communicate(timeout=600)
+        found = json.loads(out)
+    assert (found["done"], found["asked"]) == (6, 6 - len(before))
+    first, second = kept(one), kept(two)
+    assert first.keys() == second.keys() and nothing_lost(before, second)
+    for key, row in first.items():
+        require_agreement(row.answer, second[key].answer)
+
+
+def require_agreement(one: Answer, other: Answer) -> None:
+    for value, error in (
+        ("bending_angle_deg", "bending_angle_error_percent"),
+        ("max_von_mises_mpa", "max_von_mises_error_percent"),
+    ):
+        allowed = (getattr(one, error) + getattr(other, error)) / 100
+        assert getattr(one, value) == pytest.approx(getattr(other, value), rel=allowed)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("number", "status"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+def test_the_command_ends_at_a_signal_with_its_status_and_leaves_no_process(
+    tmp_path, number, status
+):
+    with sweep(tmp_path / "a.sqlite", 2) as process:
+        wait_until(lambda: len(workers_of(process)) == 2)
+        time.sleep(4)  # amid imports or an evaluation
+        left = children(process)
+        os.killpg(process.pid, number)  # as a terminal does it
+        out, err = process.communicate(timeout=END_SECONDS)
+        assert not psutil.wait_procs(left, timeout=END_SECONDS)[1]
+    assert process.returncode == status, err
+    assert json.loads(out)["exit_status"] == status
+    assert "Traceback" not in err, err
