@@ -31,6 +31,10 @@ class Session:
         self._budget = budget
         self._pool = Pool(model, most=MOST_NEIGHBOURHOODS)
 
+    def begin(self, found: Evaluation) -> None:
+        """Take an ordinary evaluation that is at hand for a start of others."""
+        self._pool.add(found)
+
     def answer(self, question: Question) -> Answer:
         """The answer to a question; a design that cannot be evaluated is an answer too."""
         from solver.errors import SolverError

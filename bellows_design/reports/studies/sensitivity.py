@@ -1,0 +1,150 @@
+"""A study of sensitivities as tables for people, within 80 columns."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
+
+from rich.box import SIMPLE
+from rich.console import RenderableType
+from rich.table import Table
+from rich.text import Text
+
+from bellows_design.neighbours.sensitivities import ANGLE, STRESS, VOLUME
+from bellows_design.reports.sensitivities import elasticities_table
+
+if TYPE_CHECKING:
+    from bellows_design.study.sensitivity.spread import Global, Spread
+    from bellows_design.study.sensitivity.study import Study
+    from bellows_design.study.sensitivity.tolerance import Contribution, Tolerated
+
+TITLES = {ANGLE: "bending angle", STRESS: "highest stress", VOLUME: "cavity volume"}
+SHORT = {ANGLE: "angle", STRESS: "stress", VOLUME: "volume"}
+UNITS = {ANGLE: "°", STRESS: " MPa"}
+DIGITS = {ANGLE: 1, STRESS: 3}
+
+
+def sensitivity_tables(study: Study) -> Sequence[RenderableType]:
+    """Elasticities, Sobol' indices, tolerances, and at the end both results with margins."""
+    tables = list(elasticities_table(study.sensitivities))
+    if study.spread is not None:
+        tables += _global(study.spread)
+    return [*tables, *_tolerances(study.tolerated)]
+
+
+def _global(spread: Global) -> Iterator[RenderableType]:
+    table = _empty(f"Sobol' indices over ± {spread.sample.box.percent:.3g} %", "parameter")
+    for short in SHORT.values():
+        table.add_column(f"{short}, first", justify="right")
+        table.add_column("total", justify="right")
+    by_response = {
+        response: {index.parameter: index for index in each.indices}
+        for response, each in spread.spreads.items()
+    }
+    for first in spread.spreads[ANGLE].indices:
+        own = [by_response[response][first.parameter] for response in SHORT]
+        shares = (
+            f"{value:.2f}±{off:.2f}"
+            for index in own
+            for value, off in (
+                (index.first, index.first_confidence),
+                (index.total, index.total_confidence),
+            )
+        )
+        table.add_row(first.parameter, *shares)
+    yield table
+    yield from map(Text, _global_notes(spread))
+
+
+def _global_notes(spread: Global) -> Iterator[str]:
+    sample = spread.sample
+    count = len(spread.answers)
+    yield (
+        f"By polynomials fitted to {count - spread.failed} of {count} designs and their "
+        "derivatives; ± is the sampling of these polynomials, 95 %."
+    )
+    for response, title in TITLES.items():
+        yield f"{title}: {_quality(spread.spreads[response])}"
+    if sample.box.percent < spread.asked_percent:
+        yield (
+            f"The box is ± {sample.box.percent:.3g} instead of {spread.asked_percent:g} %: in that "
+            "one too few designs had the same faces."
+        )
+    for number, what in (
+        (sample.redrawn, "were no designs of the same faces and bubbles, and drawn anew"),
+        (sample.drawn_in, "lay beyond the reach of neighbours, and were drawn in to it"),
+        (spread.ordinary, "were evaluated by themselves, on meshes of their own"),
+    ):
+        if number:
+            yield f"{number} points {what}."
+
+
+def _quality(spread: Spread) -> str:
+    error = spread.surrogate.error
+    return (
+        f"{len(spread.surrogate.coefficients)} terms; held out, R² {error.r_squared:.4f}, "
+        f"off by {error.root_mean_square_percent:.2f} % (root mean square), "
+        f"{error.largest_percent:.2f} % at most."
+    )
+
+
+def _tolerances(tolerated: Tolerated) -> Iterator[RenderableType]:
+    table = _empty("tolerances, at the upper end", "cause")
+    for response in UNITS:
+        table.add_column(f"{SHORT[response]}, {UNITS[response].strip()}", justify="right")
+        table.add_column("evaluated, − / +", justify="right")
+    for each in tolerated.contributions:
+        table.add_row(*_contribution(each))
+    yield table
+    for each in tolerated.contributions:
+        if each.unchecked:
+            yield Text(f"{each.cause.label}: not evaluated at its ends: {each.unchecked}")
+        elif each.check is not None:
+            yield Text(f"{each.cause.label}: {_nonlinearity(each)}.")
+    yield Text("")
+    for response in UNITS:
+        yield from map(Text, _result(tolerated, response))
+
+
+def _contribution(each: Contribution) -> Iterator[str]:
+    yield ("  " if each.cause.part_of else "") + each.cause.label
+    for response in UNITS:
+        yield f"{each.changes[response]:+.{DIGITS[response]}f}"
+        ends = () if each.check is None else (each.check.lower, each.check.upper)
+        yield " / ".join(f"{end[response]:+.{DIGITS[response]}f}" for end in ends)
+
+
+def _nonlinearity(each: Contribution) -> str:
+    assert each.check is not None
+    off = each.check.nonlinearity_percent
+    return (
+        "its ends are up to "
+        + " and ".join(
+            f"{off[response]:.0f} % ({SHORT[response]})" for response in UNITS if response in off
+        )
+        + " off the derivative"
+    )
+
+
+def _result(tolerated: Tolerated, response: str) -> Iterator[str]:
+    """The result with its margins, then their sums."""
+    margins = tolerated.margins[response]
+    unit, digits = UNITS[response], 0 if response == ANGLE else 2
+    likely = [
+        f"± {margin.likely:.{digits}f}{unit} ({source})"
+        for source, margin in margins.items()
+        if margin is not None and source != "total"
+    ]
+    yield f"{TITLES[response]}: {tolerated.values[response]:.{digits}f}{unit} {' '.join(likely)}"
+    total = margins["total"]
+    if total is not None:
+        yield (
+            f"  together ± {total.likely:.{digits}f}{unit} (root of the sum of squares), "
+            f"at worst ± {total.worst:.{digits}f}{unit}"
+        )
+
+
+def _empty(title: str, first: str) -> Table:
+    table = Table(title=title, title_justify="left", box=SIMPLE, pad_edge=False)
+    table.add_column(first, no_wrap=True)
+    return table
