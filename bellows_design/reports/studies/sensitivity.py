@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from rich.box import SIMPLE
@@ -89,41 +89,45 @@ def _quality(spread: Spread) -> str:
 
 
 def _tolerances(tolerated: Tolerated) -> Iterator[RenderableType]:
-    table = _empty("tolerances, at the upper end", "cause")
-    for response in UNITS:
-        table.add_column(f"{SHORT[response]}, {UNITS[response].strip()}", justify="right")
-        table.add_column("evaluated, − / +", justify="right")
+    table = _empty("tolerances: changes at the upper end, by derivatives", "cause")
+    for response, unit in UNITS.items():
+        table.add_column(f"{SHORT[response]}, {unit.strip()}", justify="right")
     for each in tolerated.contributions:
-        table.add_row(*_contribution(each))
+        label = ("  " if each.cause.part_of else "") + each.cause.label
+        table.add_row(label, *(_change(each.changes, response) for response in UNITS))
     yield table
+    checked = [each for each in tolerated.contributions if each.check is not None]
+    if checked:
+        yield _checks(checked)
     for each in tolerated.contributions:
         if each.unchecked:
             yield Text(f"{each.cause.label}: not evaluated at its ends: {each.unchecked}")
-        elif each.check is not None:
-            yield Text(f"{each.cause.label}: {_nonlinearity(each)}.")
-    yield Text("")
     for response in UNITS:
         yield from map(Text, _result(tolerated, response))
 
 
-def _contribution(each: Contribution) -> Iterator[str]:
-    yield ("  " if each.cause.part_of else "") + each.cause.label
-    for response in UNITS:
-        yield f"{each.changes[response]:+.{DIGITS[response]}f}"
-        ends = () if each.check is None else (each.check.lower, each.check.upper)
-        yield " / ".join(f"{end[response]:+.{DIGITS[response]}f}" for end in ends)
+def _checks(contributions: Sequence[Contribution]) -> Table:
+    """Evaluations at both ends, and how far the one farther off is from the derivative."""
+    table = _empty("the largest, evaluated at both ends", "cause")
+    for response, unit in UNITS.items():
+        table.add_column(f"{SHORT[response]}, {unit.strip()}", justify="right", no_wrap=True)
+        table.add_column("off", justify="right", no_wrap=True)
+    for each in contributions:
+        table.add_row(each.cause.label, *_check(each))
+    return table
 
 
-def _nonlinearity(each: Contribution) -> str:
+def _check(each: Contribution) -> Iterator[str]:
     assert each.check is not None
-    off = each.check.nonlinearity_percent
-    return (
-        "its ends are up to "
-        + " and ".join(
-            f"{off[response]:.0f} % ({SHORT[response]})" for response in UNITS if response in off
-        )
-        + " off the derivative"
-    )
+    for response in UNITS:
+        ends = (each.check.lower, each.check.upper)
+        yield " / ".join(_change(end, response) for end in ends)
+        off = each.check.nonlinearity_percent.get(response)
+        yield "" if off is None else f"{off:.2g} %"
+
+
+def _change(changes: Mapping[str, float], response: str) -> str:
+    return f"{changes[response]:+.{DIGITS[response]}f}"
 
 
 def _result(tolerated: Tolerated, response: str) -> Iterator[str]:

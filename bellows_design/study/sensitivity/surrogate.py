@@ -153,7 +153,7 @@ def _solved(degrees: Integers, data: Data) -> Reals:
 def _legendre(points: Reals) -> tuple[Reals, Reals]:
     """Normalized polynomials and their slopes, (points, parameters, degrees)."""
     norms = np.sqrt(2 * np.arange(HIGHEST_DEGREE + 1) + 1)
-    values: Reals = np.polynomial.legendre.legvander(points, HIGHEST_DEGREE)
+    values = np.polynomial.legendre.legvander(points, HIGHEST_DEGREE).astype(np.float64)
     nothing = np.zeros_like(points)
     slopes = np.stack([nothing, nothing + 1, 3 * points, (15 * points**2 - 3) / 2], axis=-1)
     return values * norms, slopes * norms
