@@ -2,10 +2,11 @@
 
     python tests/benchmarks/surrogate_error.py ROWS.jsonl [DESIGN...]
 
-For ``finger`` and Prototype 2, or the designs named: a surrogate of values and gradients at
-``SAMPLES`` designs of the box of ± 10 %, one of values alone at as many as cost the same seconds,
-both judged at designs that neither was fitted to. Answers are appended to ROWS.jsonl as they come;
-a second run goes on from there. Prints Markdown.
+For ``finger`` and Prototype 2, or the designs named: surrogates of values and gradients at a few
+designs of the box of ± 10 % (``SAMPLES``), and of values alone at as many as cost the same seconds,
+judged at designs that none was fitted to: neighbours, and designs of the box beyond the reach of
+neighbours, each evaluated by itself on a mesh of its own. Answers are appended to ROWS.jsonl as
+they come; a second run goes on from there. Prints Markdown.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ import json
 import sys
 from collections.abc import Iterable, Iterator
 from dataclasses import asdict, replace
+from itertools import product
 from pathlib import Path
 from statistics import mean
 
@@ -24,16 +26,18 @@ from bellows_design.batch.question import Question
 from bellows_design.design.shipped import load_design
 from bellows_design.design.variation import counted
 from bellows_design.evaluation import evaluate
+from bellows_design.neighbours.carried import REACH
+from bellows_design.neighbours.distance import distance
 from bellows_design.neighbours.sensitivities import RESPONSES, Sensitivities, sensitivities
 from bellows_design.study.sensitivity.answers import Answers, in_this_process
-from bellows_design.study.sensitivity.box import Sample, sampled
+from bellows_design.study.sensitivity.box import Box, Sample, sampled
 from bellows_design.study.sensitivity.spread import box_around, data
 from bellows_design.study.sensitivity.surrogate import HeldOut, Surrogate, error_at, fitted
 
 DESIGNS = ("finger", "prototype_2")
 PERCENT, SEED = 10.0, 1
-SAMPLES, MOST, HELD_OUT = 48, 80, 16
-"""With gradients, by value alone at most, and to judge both."""
+SAMPLES, MOST, HELD_OUT, FAR = (16, 32, 48), 72, 16, 8
+"""With gradients, by value alone at most, and to judge both, near and far."""
 
 
 class Rows:
@@ -64,8 +68,11 @@ class Rows:
 
 def main(rows: str, *names: str) -> None:
     """Print a line for each design, response and kind of surrogate."""
-    print("| design | response | from | samples | terms | R² | root mean square | largest |")
-    print("|---" * 8 + "|")
+    print(
+        "| design | response | from | samples | terms | fifths held out, root mean square "
+        "| near: R² | root mean square | largest | far: root mean square | largest |"
+    )
+    print("|---" * 11 + "|")
     for name in names or DESIGNS:
         for line in measured(name, Rows(Path(rows))):
             print(line, flush=True)
@@ -81,16 +88,30 @@ def measured(name: str, rows: Rows) -> Iterator[str]:
     truth = gathered(held_out, answers, derivatives=False)
     whole = sampled(box, MOST, SEED)
     known = {each.digest: each for each in gathered(whole, answers, derivatives=True)}
+    far = beyond_reach(box)
+    far_truth = tuple(answers(Question(design, "ordinary") for design in far.designs))
     cost = mean(each.seconds for each in known.values()) / mean(each.seconds for each in truth)
     print(f"{name}: a value and its gradient cost {cost:.2f} times the value", file=sys.stderr)
-    counts = {True: SAMPLES, False: min(MOST, round(SAMPLES * cost))}
-    for response in RESPONSES:
-        for with_slopes, count in counts.items():
+    for response, samples in product(RESPONSES, SAMPLES):
+        for count, with_slopes in ((samples, True), (min(MOST, round(samples * cost)), False)):
             sample = sampled(box, count, SEED)
             own = tuple(known[design.digest] for design in sample.designs)
             surrogate = surrogate_of(response, sample, own, found, with_slopes)
-            error = judged(surrogate, response, held_out, truth)
-            yield line(name, response, with_slopes, count, surrogate, error)
+            near = judged(surrogate, response, held_out, truth)
+            away = judged(surrogate, response, far, far_truth)
+            yield line(name, response, with_slopes, count, surrogate, near, away)
+
+
+def beyond_reach(box: Box) -> Sample:
+    """Designs of a box that are too far from its middle for a neighbour."""
+    points = np.random.default_rng(SEED).uniform(-1, 1, (20 * FAR, len(box.names)))
+    designs = [box.at(point) for point in points]
+    far = [
+        (point, design)
+        for point, design in zip(points, designs, strict=True)
+        if design is not None and distance(box.design, design) > REACH
+    ][:FAR]
+    return Sample(box, np.array([point for point, _ in far]), tuple(d for _, d in far), 0, 0)
 
 
 def gathered(sample: Sample, answers: Answers, derivatives: bool) -> tuple[Answer, ...]:
@@ -125,14 +146,22 @@ def judged(
 
 
 def line(
-    name: str, response: str, with_slopes: bool, count: int, surrogate: Surrogate, error: HeldOut
+    name: str,
+    response: str,
+    with_slopes: bool,
+    count: int,
+    surrogate: Surrogate,
+    near: HeldOut,
+    away: HeldOut,
 ) -> str:
     """One of the table."""
     kind = "values and gradients" if with_slopes else "values"
     return (
         f"| {name} | {response} | {kind} | {count} | {len(surrogate.coefficients)} "
-        f"| {error.r_squared:.4f} | {error.root_mean_square_percent:.2f} % "
-        f"| {error.largest_percent:.2f} % |"
+        f"| {surrogate.error.root_mean_square_percent:.2f} % "
+        f"| {near.r_squared:.4f} | {near.root_mean_square_percent:.2f} % "
+        f"| {near.largest_percent:.2f} % "
+        f"| {away.root_mean_square_percent:.2f} % | {away.largest_percent:.2f} % |"
     )
 
 

@@ -14,6 +14,7 @@ from bellows_design.neighbours.sensitivities import ANGLE, STRESS, VOLUME
 from bellows_design.reports.sensitivities import elasticities_table
 
 if TYPE_CHECKING:
+    from bellows_design.study.sensitivity.indices import Index
     from bellows_design.study.sensitivity.spread import Global, Spread
     from bellows_design.study.sensitivity.study import Study
     from bellows_design.study.sensitivity.tolerance import Contribution, Tolerated
@@ -35,25 +36,18 @@ def sensitivity_tables(study: Study) -> Sequence[RenderableType]:
 def _global(spread: Global) -> Iterator[RenderableType]:
     table = _empty(f"Sobol' indices over ± {spread.sample.box.percent:.3g} %", "parameter")
     for short in SHORT.values():
-        table.add_column(f"{short}, first", justify="right")
-        table.add_column("total", justify="right")
-    by_response = {
-        response: {index.parameter: index for index in each.indices}
-        for response, each in spread.spreads.items()
-    }
+        table.add_column(f"{short}\nfirst", justify="right", no_wrap=True)
+        table.add_column("\ntotal", justify="right", no_wrap=True)
     for first in spread.spreads[ANGLE].indices:
-        own = [by_response[response][first.parameter] for response in SHORT]
-        shares = (
-            f"{value:.2f}±{off:.2f}"
-            for index in own
-            for value, off in (
-                (index.first, index.first_confidence),
-                (index.total, index.total_confidence),
-            )
-        )
-        table.add_row(first.parameter, *shares)
+        own = [_index(spread.spreads[response], first.parameter) for response in SHORT]
+        shares = (share for index in own for share in (index.first, index.total))
+        table.add_row(first.parameter, *(f"{share:.3f}" for share in shares))
     yield table
     yield from map(Text, _global_notes(spread))
+
+
+def _index(spread: Spread, parameter: str) -> Index:
+    return next(index for index in spread.indices if index.parameter == parameter)
 
 
 def _global_notes(spread: Global) -> Iterator[str]:
@@ -61,7 +55,7 @@ def _global_notes(spread: Global) -> Iterator[str]:
     count = len(spread.answers)
     yield (
         f"By polynomials fitted to {count - spread.failed} of {count} designs and their "
-        "derivatives; ± is the sampling of these polynomials, 95 %."
+        f"derivatives; sampled to ± {_sampling(spread):.2g} (95 %)."
     )
     for response, title in TITLES.items():
         yield f"{title}: {_quality(spread.spreads[response])}"
@@ -77,6 +71,15 @@ def _global_notes(spread: Global) -> Iterator[str]:
     ):
         if number:
             yield f"{number} points {what}."
+
+
+def _sampling(spread: Global) -> float:
+    """The widest of the intervals."""
+    return max(
+        max(index.first_confidence, index.total_confidence)
+        for each in spread.spreads.values()
+        for index in each.indices
+    )
 
 
 def _quality(spread: Spread) -> str:
@@ -123,7 +126,7 @@ def _check(each: Contribution) -> Iterator[str]:
         ends = (each.check.lower, each.check.upper)
         yield " / ".join(_change(end, response) for end in ends)
         off = each.check.nonlinearity_percent.get(response)
-        yield "" if off is None else f"{off:.2g} %"
+        yield "" if off is None else f"{off:.1f} %"
 
 
 def _change(changes: Mapping[str, float], response: str) -> str:

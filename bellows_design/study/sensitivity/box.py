@@ -27,7 +27,7 @@ NARROWER, NARROWEST = 0.8, 0.5
 """Factor by which a box is narrowed, and the percentage below which it is given up."""
 
 WITHIN = 0.98
-"""Of the reach, to which points beyond it are drawn in."""
+"""Of the reach, about as far as points beyond it are drawn in."""
 
 
 @dataclass(frozen=True)
@@ -131,7 +131,13 @@ def _sequence(dimension: int, seed: int) -> Iterator[Reals]:
 
 
 def _within_reach(box: Box, point: Reals) -> Reals:
-    """The point, or where the way to it from the middle leaves the reach of neighbours."""
+    """The point, or one nearer to the middle that is within the reach of neighbours."""
+    while (apart := _distance(box, point)) > REACH:
+        point = point * (WITHIN * REACH / apart)
+    return point
+
+
+def _distance(box: Box, point: Reals) -> float:
+    """From the middle; 0 where there is no design."""
     design = box.at(point)
-    apart = 0.0 if design is None else distance(box.design, design)
-    return point if apart <= WITHIN * REACH else point * (WITHIN * REACH / apart)
+    return 0.0 if design is None else distance(box.design, design)

@@ -20,6 +20,11 @@ STRENGTH = 0.02
 in a global study: linearly 0.04 % of its variance."""
 
 
+def values(found: Sensitivities) -> dict[str, float]:
+    """Of the responses at the design: °, mm³, MPa."""
+    return {name: found.responses[name] / _above(name, found) for name in RESPONSES}
+
+
 def slopes(found: Sensitivities) -> dict[str, dict[str, float]]:
     """Of each response (°, mm³, MPa) by each parameter (mm, MPa): response -> parameter."""
     return {

@@ -15,7 +15,7 @@ from bellows_design.progress import SILENCE, Progress
 from bellows_design.study.sensitivity.answers import Answers
 from bellows_design.study.sensitivity.box import Box, Sample, sampled
 from bellows_design.study.sensitivity.indices import Index, sobol_indices
-from bellows_design.study.sensitivity.local import slopes_of, strongest
+from bellows_design.study.sensitivity.local import slopes, slopes_of, strongest, values
 from bellows_design.study.sensitivity.surrogate import Data, Surrogate, fitted
 
 if TYPE_CHECKING:
@@ -106,14 +106,15 @@ def box_around(found: Sensitivities, percent: float, model: str) -> Box:
 
 
 def data(response: str, sample: Sample, answers: tuple[Answer, ...], found: Sensitivities) -> Data:
-    """What the answers to a sample know of a response."""
+    """What is known of a response: in the middle of the box, and by the answers to a sample."""
     done = [i for i, answer in enumerate(answers) if answer.done]
-    rows = [slopes_of(answers[i], found)[response] for i in done]
+    rows = [slopes(found)[response], *(slopes_of(answers[i], found)[response] for i in done)]
     by_name = np.array([[row[name] for name in sample.box.names] for row in rows])
+    others = [getattr(answers[i], response) for i in done]
     return Data(
-        points=sample.points[done],
-        values=np.array([getattr(answers[i], response) for i in done]),
-        slopes=by_name.reshape(len(done), -1) * sample.box.half_sides,
+        points=np.concatenate([np.zeros((1, len(sample.box.names))), sample.points[done]]),
+        values=np.array([values(found)[response], *others]),
+        slopes=by_name * sample.box.half_sides,
     )
 
 

@@ -18,7 +18,7 @@ from solver.arrays import Integers, Reals
 
 HIGHEST_DEGREE = 3
 
-EQUATIONS = 1.5
+EQUATIONS = 1.2
 """For each coefficient at least."""
 
 FOLDS = 5
