@@ -136,19 +136,24 @@ def _change(changes: Mapping[str, float], response: str) -> str:
 def _result(tolerated: Tolerated, response: str) -> Iterator[str]:
     """The result with its margins, then their sums."""
     margins = tolerated.margins[response]
-    unit, digits = UNITS[response], 0 if response == ANGLE else 2
-    likely = [
-        f"± {margin.likely:.{digits}f}{unit} ({source})"
+    of_each = [
+        f"± {_value(margin.likely, response)} ({source})"
         for source, margin in margins.items()
         if margin is not None and source != "total"
     ]
-    yield f"{TITLES[response]}: {tolerated.values[response]:.{digits}f}{unit} {' '.join(likely)}"
+    value = _value(tolerated.values[response], response)
+    last = "" if response == ANGLE else UNITS[response]
+    yield f"{TITLES[response]}: {' '.join([value, *of_each])}{last}"
     total = margins["total"]
     if total is not None:
+        likely, worst = _value(total.likely, response), _value(total.worst, response)
         yield (
-            f"  together ± {total.likely:.{digits}f}{unit} (root of the sum of squares), "
-            f"at worst ± {total.worst:.{digits}f}{unit}"
+            f"  together ± {likely}{last} (root of the sum of squares), at worst ± {worst}{last}"
         )
+
+
+def _value(value: float, response: str) -> str:
+    return f"{value:.0f}°" if response == ANGLE else f"{value:.2f}"
 
 
 def _empty(title: str, first: str) -> Table:
