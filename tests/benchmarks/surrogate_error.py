@@ -89,18 +89,18 @@ def measured(name: str, rows: Rows) -> Iterator[str]:
     box = box_around(found, PERCENT, base.model.name)
     held_out = sampled(box, HELD_OUT, SEED + 1)
     truth = gathered(held_out, answers, derivatives=False)
-    whole = sampled(box, round(SAMPLES[-1] * COST), SEED)
-    known = {each.digest: each for each in gathered(whole, answers, derivatives=True)}
     far = beyond_reach(box)
     far_truth = tuple(answers(Question(design, "ordinary") for design in far.designs))
-    for response, samples in product(RESPONSES, SAMPLES):
-        for count, with_slopes in ((samples, True), (round(samples * COST), False)):
-            sample = sampled(box, count, SEED)
+    for samples in SAMPLES:
+        most = sampled(box, round(samples * COST), SEED)
+        known = {each.digest: each for each in gathered(most, answers, derivatives=True)}
+        few = sampled(box, samples, SEED)  # the first points of the same sequence
+        for response, (sample, with_slopes) in product(RESPONSES, ((few, True), (most, False))):
             own = tuple(known[design.digest] for design in sample.designs)
             surrogate = surrogate_of(response, sample, own, found, with_slopes)
             near = judged(surrogate, response, held_out, truth)
             away = judged(surrogate, response, far, far_truth)
-            yield line(name, response, with_slopes, count, surrogate, near, away)
+            yield line(name, response, with_slopes, len(own), surrogate, near, away)
 
 
 def beyond_reach(box: Box) -> Sample:

@@ -15,7 +15,7 @@ import numpy as np
 from bellows_design.errors import DesignError
 from solver.arrays import Reals
 
-BASE_SAMPLES = 2048
+BASE_SAMPLES = 4096
 """Each costs two evaluations more than there are parameters, of a surrogate."""
 
 CONFIDENCE = 0.95
