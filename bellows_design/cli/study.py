@@ -41,7 +41,7 @@ def sensitivity(
         typer.Option("--range", metavar="PERCENT", help="Half width of the box around the design."),
     ] = 10.0,
     samples: Annotated[
-        int | None, typer.Option(metavar="N", help="Designs of the box to evaluate; without it 24.")
+        int | None, typer.Option(metavar="N", help="Designs of the box to evaluate; without it 20.")
     ] = None,
     wall: Annotated[
         float, typer.Option(metavar="MM", help="By how much walls may come out thicker or thinner.")

@@ -43,6 +43,7 @@ def _global(spread: Global) -> Iterator[RenderableType]:
         shares = (share for index in own for share in (index.first, index.total))
         table.add_row(first.parameter, *(f"{share:.3f}" for share in shares))
     yield table
+    yield _errors(spread)
     yield from map(Text, _global_notes(spread))
 
 
@@ -53,20 +54,16 @@ def _index(spread: Spread, parameter: str) -> Index:
 def _global_notes(spread: Global) -> Iterator[str]:
     sample = spread.sample
     count = len(spread.answers)
-    yield (
-        f"By polynomials fitted to {count - spread.failed} of {count} designs and their "
-        f"derivatives; sampled to ± {_sampling(spread):.2g} (95 %)."
-    )
-    for response, title in TITLES.items():
-        yield f"{title}: {_quality(spread.spreads[response])}"
+    yield f"By polynomials fitted to {count - spread.failed} of {count} designs and derivatives,"
+    yield f"sampled to ± {_sampling(spread):.2g} (95 %)."
     if sample.box.percent < spread.asked_percent:
         yield (
-            f"The box is ± {sample.box.percent:.3g} instead of {spread.asked_percent:g} %: in that "
-            "one too few designs had the same faces."
+            f"The box is ± {sample.box.percent:.3g} instead of {spread.asked_percent:g} %, where "
+            "few designs had the same faces."
         )
     for number, what in (
         (sample.redrawn, "were no designs of the same faces and bubbles, and drawn anew"),
-        (sample.drawn_in, "lay beyond the reach of neighbours, and were drawn in to it"),
+        (sample.drawn_in, "lay beyond the reach of neighbours, and were drawn in"),
         (spread.ordinary, "were evaluated by themselves, on meshes of their own"),
     ):
         if number:
@@ -82,13 +79,22 @@ def _sampling(spread: Global) -> float:
     )
 
 
-def _quality(spread: Spread) -> str:
-    error = spread.surrogate.error
-    return (
-        f"{len(spread.surrogate.coefficients)} terms; held out, R² {error.r_squared:.4f}, "
-        f"off by {error.root_mean_square_percent:.2f} % (root mean square), "
-        f"{error.largest_percent:.2f} % at most."
-    )
+def _errors(spread: Global) -> Table:
+    """How good the polynomials are."""
+    table = _empty("polynomials, at designs held out", "response")
+    for heading in ("terms", "R²", "off, root mean square", "largest"):
+        table.add_column(heading, justify="right", no_wrap=True)
+    for response, title in TITLES.items():
+        surrogate = spread.spreads[response].surrogate
+        error = surrogate.error
+        table.add_row(
+            title,
+            f"{len(surrogate.coefficients)}",
+            f"{error.r_squared:.4f}",
+            f"{error.root_mean_square_percent:.2f} %",
+            f"{error.largest_percent:.2f} %",
+        )
+    return table
 
 
 def _tolerances(tolerated: Tolerated) -> Iterator[RenderableType]:

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from bellows_design.analysis.evaluation import Evaluation
     from bellows_design.design.design import Design
 
-SAMPLES = 24
+SAMPLES = 20
 """By default: see docs/studies.md for the error that leaves."""
 
 FEWEST_SAMPLES, MOST_SAMPLES = 10, 10_000
