@@ -35,7 +35,7 @@ from bellows_design.study.sensitivity.surrogate import HeldOut, Surrogate, error
 
 DESIGNS = ("finger", "prototype_2")
 PERCENT, SEED = 10.0, 1
-SAMPLES, HELD_OUT, FAR = (16, 32), 16, 8
+SAMPLES, HELD_OUT, FAR = (16, 20, 32), 16, 8
 """With gradients, and to judge, near and far."""
 
 COST = 1.8
