@@ -33,6 +33,10 @@ class Session:
         self._pool = Pool(model, most=MOST_NEIGHBOURHOODS)
         self._fresh: list[Evaluation] = []  # that the pool does not have yet
 
+    def begin(self, found: Evaluation) -> None:
+        """Take an ordinary evaluation that is at hand for a start of others."""
+        self._pool.add(found)
+
     def answer(self, question: Question) -> Answer:
         """The answer to a question; a design that cannot be evaluated is an answer too."""
         from solver.errors import SolverError

@@ -51,6 +51,41 @@ def paper(
 
 
 @study.command()
+def sensitivity(
+    name: DesignName,
+    percent: Annotated[
+        float,
+        typer.Option("--range", metavar="PERCENT", help="Half width of the box around the design."),
+    ] = 10.0,
+    samples: Annotated[
+        int | None, typer.Option(metavar="N", help="Designs of the box to evaluate; without it 20.")
+    ] = None,
+    wall: Annotated[
+        float, typer.Option(metavar="MM", help="By how much walls may come out thicker or thinner.")
+    ] = 0.05,
+    modulus: Annotated[
+        float,
+        typer.Option(metavar="PERCENT", help="By how much constants of the material may be off."),
+    ] = 10.0,
+    seed: Annotated[int, typer.Option(metavar="N", help="Of the samples.")] = 0,
+    no_sobol: Annotated[
+        bool, typer.Option("--no-sobol", help="Leave the box and its Sobol indices out.")
+    ] = False,
+    settings: Settings = None,
+    output: Output = None,
+    plot: Plot = None,
+    no_cache: NoCache = False,
+    as_json: AsJson = False,
+) -> None:
+    """How angle, stress and volume depend on every number, and within tolerances."""
+    from bellows_design.cli.studies.sensitivity import sensitivity as examine
+
+    options = DesignOptions(name, tuple(settings or ()))
+    asked = (percent, samples, wall, modulus, seed, not no_sobol, output, plot, not no_cache)
+    answer(lambda: examine(options, *asked), as_json)
+
+
+@study.command()
 def sweep(
     name: DesignName,
     vary: Annotated[

@@ -26,22 +26,36 @@ def sensitivities_table(found: Sensitivities | str) -> Sequence[RenderableType]:
     """
     if isinstance(found, str):
         return [Text(f"no sensitivities: {found}")]
-    rows = sorted(found.parameters, key=_strength, reverse=True)
-    elasticities = _empty(
+    elasticities, *notes = elasticities_table(found)
+    return [elasticities, _derivatives(found), *notes]
+
+
+def elasticities_table(found: Sensitivities) -> Sequence[RenderableType]:
+    """Elasticities, the strongest parameter of the angle on top, and what they mean."""
+    table = _empty(
         "sensitivities, % per % of the parameter", "value", *(name for _, name, _ in COLUMNS)
     )
-    derivatives = _empty(
+    for row in _sorted(found):
+        relative = (_elasticity(row.elasticities[name]) for name, *_ in COLUMNS)
+        table.add_row(row.parameter, f"{row.value:.4g} {row.unit}".strip(), *relative)
+    warnings = [Text(f"warning: {warning}", style="yellow") for warning in found.warnings]
+    return [table, *(Text(note) for note in _notes(found)), *warnings]
+
+
+def _derivatives(found: Sensitivities) -> Table:
+    table = _empty(
         "sensitivities per unit of the parameter",
         "per",
         *(f"{name}, {unit}" for _, name, unit in COLUMNS),
     )
-    for row in rows:
-        relative = (_elasticity(row.elasticities[name]) for name, *_ in COLUMNS)
+    for row in _sorted(found):
         absolute = (f"{row.derivatives[name]:+.4g}" for name, *_ in COLUMNS)
-        elasticities.add_row(row.parameter, f"{row.value:.4g} {row.unit}".strip(), *relative)
-        derivatives.add_row(row.parameter, row.unit or "1", *absolute)
-    warnings = [Text(f"warning: {warning}", style="yellow") for warning in found.warnings]
-    return [elasticities, derivatives, *(Text(note) for note in _notes(found)), *warnings]
+        table.add_row(row.parameter, row.unit or "1", *absolute)
+    return table
+
+
+def _sorted(found: Sensitivities) -> list[Sensitivity]:
+    return sorted(found.parameters, key=_strength, reverse=True)
 
 
 def _empty(title: str, *headings: str) -> Table:

@@ -1,0 +1,1 @@
+"""How a design's results depend on its numbers: locally, over a box, and within tolerances."""
