@@ -26,8 +26,8 @@ MOST_WORKERS = 1000
 """On one machine."""
 
 WORKER_GIB = 2.0
-"""Memory of a worker: 1.67 GiB were measured with two neighbourhoods around ``finger``, of the three
-that a session keeps."""
+"""Memory of a worker: 1.67 GiB were measured with two neighbourhoods around ``finger``; a session
+keeps three."""
 
 LISTEN_SECONDS = 3.0
 """s. So long it is tried whether anything listens at an address."""
