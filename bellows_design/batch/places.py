@@ -25,8 +25,9 @@ LOOPBACK = "127.0.0.1"
 MOST_WORKERS = 1000
 """On one machine."""
 
-WORKER_GIB = 1.2
-"""Memory of a worker with a few neighbourhoods of the usual size."""
+WORKER_GIB = 2.0
+"""Memory of a worker: 1.67 GiB were measured with two neighbourhoods around ``finger``; a session
+keeps three."""
 
 LISTEN_SECONDS = 3.0
 """s. So long it is tried whether anything listens at an address."""

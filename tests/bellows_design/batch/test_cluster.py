@@ -91,7 +91,7 @@ def test_what_listens_but_is_no_scheduler_is_told_of():
 
 def test_as_many_workers_as_processors_if_the_memory_suffices(monkeypatch):
     monkeypatch.setattr("bellows_design.batch.places._processors", lambda: 64)
-    for memory, workers in ((None, 64), (500.0, 64), (12.5, 10), (0.5, 1)):
+    for memory, workers in ((None, 64), (500.0, 64), (12.5, 6), (0.5, 1)):
         monkeypatch.setattr("bellows_design.batch.places.memory_gib", lambda gib=memory: gib)
         assert ThisMachine.of(None).workers == workers
 
