@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 from bellows_design.batch.answer import Answer, answer_of, failed
 from bellows_design.batch.question import Question
@@ -13,12 +13,18 @@ from bellows_design.errors import BellowsError
 if TYPE_CHECKING:
     from bellows_design.analysis.evaluation import Evaluation
     from bellows_design.design.design import Design
+    from bellows_design.neighbours.neighbourhood import Neighbourhood
     from bellows_design.neighbours.pool import Pool
     from bellows_design.neighbours.record import NeighbourEvaluation
     from bellows_design.neighbours.sensitivities import Sensitivities
 
 MOST_NEIGHBOURHOODS = 3
 """Kept in a process, about a quarter of a gigabyte each."""
+
+Anchor = tuple[str, float | None]
+"""Digest of a design, and the accuracy (percent) that its evaluation was asked for."""
+
+Kept = TypeVar("Kept")
 
 
 class Session:
@@ -31,7 +37,8 @@ class Session:
         self._model = model
         self._budget = budget
         self._pool = Pool(model, most=MOST_NEIGHBOURHOODS)
-        self._fresh: list[Evaluation] = []  # that the pool does not have yet
+        self._fresh: dict[Anchor, Evaluation] = {}  # that nothing was started from yet
+        self._around: dict[Anchor, Neighbourhood] = {}
 
     def begin(self, found: Evaluation) -> None:
         """Take an ordinary evaluation that is at hand for a start of others."""
@@ -57,10 +64,7 @@ class Session:
             return self._ordinary(question.design, question)
         if question.start == "nearest":
             return self._neighbours().evaluate(question.design, budget=self._budget)
-        around = self._neighbours().around(question.start)
-        if around is None:
-            self._ordinary(question.start, question)
-            around = self._neighbours().around(question.start)
+        around = self._neighbourhood(question.start, question)
         if around is None:  # no neighbour can start there
             return self._ordinary(question.design, question)
         return around.evaluate(question.design, budget=self._budget, reach=question.reach)
@@ -75,15 +79,39 @@ class Session:
             budget=self._budget,
             keep=question.derivatives,
         )
-        self._fresh = [*self._fresh, found][-MOST_NEIGHBOURHOODS:]
+        _keep(self._fresh, (design.digest, question.accuracy_percent), found)
         return found
+
+    def _neighbourhood(self, design: Design, question: Question) -> Neighbourhood | None:
+        """That of a design's own evaluation, to the question's accuracy; None if it is no start."""
+        from bellows_design.neighbours.equilibrium import unusable
+        from bellows_design.neighbours.neighbourhood import Neighbourhood
+
+        start = design.digest, question.accuracy_percent
+        around = self._around.get(start)
+        if around is None:
+            anchor = self._fresh.get(start) or self._ordinary(design, question)
+            del self._fresh[start]
+            if unusable(anchor):
+                return None
+            around = Neighbourhood(anchor)
+        _keep(self._around, start, around)
+        return around
 
     def _neighbours(self) -> Pool:
         """The pool with what was evaluated by itself since; it prepares each, which takes time."""
-        fresh, self._fresh = self._fresh, []
-        for evaluation in fresh:
+        for evaluation in self._fresh.values():
             self._pool.add(evaluation)
+        self._fresh.clear()
         return self._pool
+
+
+def _keep(kept: dict[Anchor, Kept], anchor: Anchor, value: Kept) -> None:
+    """Put a value last, and forget the first ones beyond what is kept."""
+    kept.pop(anchor, None)
+    kept[anchor] = value
+    while len(kept) > MOST_NEIGHBOURHOODS:
+        del kept[next(iter(kept))]
 
 
 def _derivatives(found: Evaluation | NeighbourEvaluation) -> Sensitivities | None:

@@ -49,15 +49,6 @@ class Pool:
         if not unusable(evaluation):
             self._use(Neighbourhood(evaluation))
 
-    def around(self, design: Design) -> Neighbourhood | None:
-        """The neighbourhood that began with this design; None if there is none."""
-        digest = design.digest
-        for each in self._neighbourhoods:
-            if each.anchor.design.digest == digest:
-                self._use(each)
-                return each
-        return None
-
     def _nearest(self, design: Design) -> Neighbourhood | None:
         near = [each for each in self._neighbourhoods if each.distance(design) <= REACH]
         return min(near, key=lambda each: each.distance(design), default=None)

@@ -19,6 +19,7 @@ from bellows_design.batch.schema import Row
 from bellows_design.study.optimize.descent import Search
 from bellows_design.study.optimize.goal import Goal
 from bellows_design.study.optimize.point import Point, Request
+from bellows_design.study.optimize.space.choices import Choice
 
 Told = Callable[["Coordinator"], None]
 
@@ -53,10 +54,20 @@ class Coordinator:
         """Whether the time is over."""
         return time.monotonic() > self.deadline
 
-    def best(self, kept: bool = True) -> Point | None:
-        """The best point evaluated by itself; with ``kept`` only of those that keep the limits."""
-        found = [p for p in self.points if p.ordinary and (not kept or self.goal.kept(p.values))]
-        return min(found, key=lambda point: self.goal.merit(point.values), default=None)
+    def best(self) -> Point | None:
+        """The best point evaluated by itself that keeps the limits with its own error."""
+        found = [p for p in self.points if p.ordinary and self.goal.kept(p.values_with_error)]
+        return min(found, key=self._merit, default=None)
+
+    def most_promising(self, number: int) -> list[Point]:
+        """The best points evaluated by themselves of so many different choices."""
+        found: dict[Choice, Point] = {}
+        for point in sorted((p for p in self.points if p.ordinary), key=self._merit):
+            found.setdefault(point.choice, point)
+        return list(found.values())[:number]
+
+    def _merit(self, point: Point) -> float:
+        return self.goal.merit(point.values)
 
     def lead(self, searches: Iterable[Search]) -> None:
         """Lead all searches to their ends, or until the time is over."""

@@ -10,9 +10,11 @@ from __future__ import annotations
 import math
 from collections.abc import Generator
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
+from bellows_design.design.design import Design
 from bellows_design.neighbours.distance import distance
 from bellows_design.study.optimize.allowed import CLEARANCE, SEARCH_REACH, Allowed
 from bellows_design.study.optimize.goal import Goal
@@ -59,12 +61,14 @@ class Descent:
         goal: What is minimised.
         start: Values of the variables to begin with.
         bar: The best merit known before; descents that stay far behind are given up.
+        accuracy_percent: Of evaluations by themselves; without it the usual one.
     """
 
     variables: Variables
     goal: Goal
     start: Reals
     bar: float = math.inf
+    accuracy_percent: float | None = None
 
     def search(self) -> Search:
         """Round by round; the last evaluation is one by itself, of the best design."""
@@ -73,7 +77,7 @@ class Descent:
         if self.variables.exists(start):
             return
         for number in range(MOST_ROUNDS):
-            anchor = yield Request(self.variables, start, "ordinary")
+            anchor = yield self._request(start, "ordinary")
             if anchor is None:
                 return
             best = min(best, self._merit(anchor))
@@ -95,7 +99,7 @@ class Descent:
             values = steps.next(at)
             if values is None:
                 break
-            point = yield Request(self.variables, values, anchor.design, SEARCH_REACH)
+            point = yield self._request(values, anchor.design)
             if point is None or point.ordinary:  # no neighbour led there after all
                 steps.radius /= 2
                 continue
@@ -106,6 +110,9 @@ class Descent:
             if distance(anchor.design, at.design) > FAR * SEARCH_REACH or 0 < gain < WORTHWHILE / 3:
                 break
         return at
+
+    def _request(self, values: Reals, start: Design | Literal["ordinary"]) -> Request:
+        return Request(self.variables, values, start, SEARCH_REACH, self.accuracy_percent)
 
     def _merit(self, point: Point) -> float:
         return self.goal.merit(point.values)

@@ -62,6 +62,11 @@ class Point:
         percent = self.answer.max_von_mises_error_percent
         return self.values["stress"] * (1 + (MARGIN if percent is None else percent / 100))
 
+    @property
+    def values_with_error(self) -> dict[str, float]:
+        """The values, with a stress that its error and not the margin of a goal is added to."""
+        return self.values | {"stress": self.stress_with_error / (1 + MARGIN)}
+
 
 @dataclass(frozen=True)
 class Request:
@@ -72,18 +77,24 @@ class Request:
         values: Theirs.
         start: ``ordinary``, or the design whose neighbour it is.
         reach: Distance up to which it is one.
+        accuracy_percent: Of the evaluation by itself that it begins with.
     """
 
     variables: Variables
     values: Reals
     start: Design | Literal["ordinary"]
     reach: float = REACH
+    accuracy_percent: float | None = None
 
     @cached_property
     def question(self) -> Question:
         """What is asked, with derivatives."""
         return Question(
-            self.variables.design(self.values), self.start, derivatives=True, reach=self.reach
+            self.variables.design(self.values),
+            self.start,
+            derivatives=True,
+            accuracy_percent=self.accuracy_percent,
+            reach=self.reach,
         )
 
     def point(self, answer: Answer, goal: Goal) -> Point | None:

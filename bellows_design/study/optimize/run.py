@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import time
 from collections.abc import Callable
 from contextlib import closing
@@ -150,17 +149,14 @@ def _verified(
 ) -> tuple[Point, Verification]:
     """The best and what its verification says; sought again within a lower limit if it fails."""
     found = verified(best.design, half, progress, budget)
-    limit = optimization.goal.most_stress_mpa
+    goal, limit = optimization.goal, optimization.goal.most_stress_mpa
     for _ in range(MOST_CORRECTIONS):
         if found.stress_with_error_mpa <= limit or coordinator.late:
             break
         excess = found.stress_with_error_mpa / limit
-        corrected = optimization.goal.most_stress_mpa / math.pow(excess, 1.1)
-        goal = replace(optimization.goal, most_stress_mpa=corrected)
-        optimization = replace(optimization, goal=goal)
-        descent = optimization.descent(best.variables, best.choice, goal, coordinator)
+        goal = replace(goal, most_stress_mpa=goal.most_stress_mpa / excess)
         before = len(coordinator.points)
-        coordinator.lead([descent.search()])
+        coordinator.lead([optimization.fine_descent(best, goal).search()])
         kept = [p for p in coordinator.points[before:] if p.ordinary and goal.kept(p.values)]
         if not kept:
             break

@@ -2,15 +2,15 @@
 
 Global: designs of all choices, each by itself. Descents: by gradients, from the best starts of
 different choices. Around: the choices that differ in one count from the best one's, from its
-lengths, as long as that helps. Front: from the best, at lower and higher limits of the stress.
+lengths, as long as that helps. Refined: the best few once more, on finer meshes. Front: likewise,
+at lower and higher limits of the stress.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-
-import numpy as np
 
 from bellows_design.design.design import Design
 from bellows_design.study.optimize.coordinator import Coordinator
@@ -25,6 +25,10 @@ from solver.arrays import Reals
 WAVE = 4
 """Designs of the global stage that are chosen at once: the same whoever evaluates them."""
 
+FINE_PERCENT = 2.0
+"""Accuracy of the last descents: the least error of a stress that is stated. On usual meshes the
+stress of one design differs by up to 4 %, and the angle that a limit allows by as much."""
+
 FRONT_LIMITS = (0.95, 0.875, 0.8, 1.1)
 """Limits of the stress for the front, over the goal's."""
 
@@ -36,6 +40,7 @@ class Effort:
     Attributes:
         global_designs: Of the global stage.
         starts: Descents after it.
+        refined: Choices that are sought once more on finer meshes.
         front_limits: Limits of the stress for which the front is sought, over the goal's.
         gradients: Whether there are descents at all.
         seed: Of the global stage.
@@ -43,6 +48,7 @@ class Effort:
 
     global_designs: int = 32
     starts: int = 4
+    refined: int = 2
     front_limits: tuple[float, ...] = FRONT_LIMITS
     gradients: bool = True
     seed: int = 0
@@ -74,15 +80,23 @@ class Optimization:
         at.evaluated([self._base_request(all_choices)])
         self._global(at, all_choices)
         if self.effort.gradients:
-            self._lead(at, self._starts(at))
+            at.lead(
+                self.descent(each.variables, each.choice, at).search()
+                for each in at.most_promising(self.effort.starts)
+            )
             self._around_the_best(at, all_choices)
+            self._refined(at)
             self._front(at)
 
-    def descent(self, start: Reals, choice: Choice, goal: Goal, at: Coordinator) -> Descent:
-        """Of one choice from values of its variables."""
-        best = at.best()
-        bar = np.inf if best is None or goal != self.goal else goal.merit(best.values)
-        return Descent(self.variables(choice), goal, start, float(bar))
+    def descent(self, start: Reals, choice: Choice, at: Coordinator) -> Descent:
+        """Of one choice from values of its variables, on meshes of the usual accuracy."""
+        bar = min((self.goal.merit(each.values) for each in at.most_promising(1)), default=math.inf)
+        return Descent(self.variables(choice), self.goal, start, bar)
+
+    def fine_descent(self, start: Point, goal: Goal) -> Descent:
+        """Of one choice from a point, on finer meshes."""
+        variables = self.variables(start.choice)
+        return Descent(variables, goal, start.variables, accuracy_percent=FINE_PERCENT)
 
     def _base_request(self, all_choices: Sequence[Choice]) -> Request:
         """The base itself, as near as whole lines and the room allow."""
@@ -103,42 +117,35 @@ class Optimization:
             for each, point in zip(wave, at.evaluated(requests), strict=True):
                 stage.tell(each, None if point is None else self.goal.merit(point.values))
 
-    def _starts(self, at: Coordinator) -> Iterator[Point]:
-        """The best points of different choices."""
-        best: dict[Choice, Point] = {}
-        for point in sorted(at.points, key=lambda each: self.goal.merit(each.values)):
-            best.setdefault(point.choice, point)
-        yield from list(best.values())[: self.effort.starts]
-
-    def _lead(self, at: Coordinator, starts: Iterable[Point], goal: Goal | None = None) -> None:
-        at.lead(
-            self.descent(each.variables, each.choice, goal or self.goal, at).search()
-            for each in starts
-        )
-
     def _around_the_best(self, at: Coordinator, all_choices: Sequence[Choice]) -> None:
         """Descents of the choices beside the best one's, until none of them is better."""
         looked_at: set[Choice] = set()
-        best = at.best() or at.best(kept=False)
-        while best is not None and not at.late and best.choice not in looked_at:
+        while not at.late:
+            best = next(iter(at.most_promising(1)), None)
+            if best is None or best.choice in looked_at:
+                return
             looked_at.add(best.choice)
             others = [each for each in beside(best.choice, all_choices) if each not in looked_at]
             at.lead(
-                self.descent(self.variables(each).values(best.design), each, self.goal, at).search()
+                self.descent(self.variables(each).values(best.design), each, at).search()
                 for each in others
             )
-            best = at.best() or at.best(kept=False)
+
+    def _refined(self, at: Coordinator) -> None:
+        """Descents on finer meshes, from the best of a few choices."""
+        at.lead(
+            self.fine_descent(each, self.goal).search()
+            for each in at.most_promising(self.effort.refined)
+        )
 
     def _front(self, at: Coordinator) -> None:
-        """Descents from the best at other limits of the stress."""
+        """Descents from the best at other limits of the stress, on finer meshes."""
         best = at.best()
         if best is None or self.goal.quantity != "angle":
             return
-        goals = [
-            replace(self.goal, most_stress_mpa=share * self.goal.most_stress_mpa)
-            for share in self.effort.front_limits
-        ]
-        at.lead(self.descent(best.variables, best.choice, goal, at).search() for goal in goals)
+        limits = [share * self.goal.most_stress_mpa for share in self.effort.front_limits]
+        goals = [replace(self.goal, most_stress_mpa=limit) for limit in limits]
+        at.lead(self.fine_descent(best, goal).search() for goal in goals)
 
 
 def nearest_choice(design: Design, all_choices: Sequence[Choice]) -> Choice:
