@@ -20,6 +20,7 @@ from bellows_design.cli.options import (
     NoCache,
     Settings,
 )
+from bellows_design.cli.studies.options import Scheduler, Workers
 
 
 class Sample(StrEnum):
@@ -110,21 +111,8 @@ def sweep(
         bool, typer.Option("--ordinary", help="Each design by itself, not from a neighbour.")
     ] = False,
     accuracy: Accuracy = None,
-    workers: Annotated[
-        int | None,
-        typer.Option(
-            metavar="N",
-            help="Processes of this machine; without it one for each processor; 0: this one only.",
-        ),
-    ] = None,
-    scheduler: Annotated[
-        str | None,
-        typer.Option(
-            metavar="ADDRESS",
-            help="The workers of this dask scheduler instead, tcp://host:8786. Only one that you "
-            "trust: whoever reaches it can run programs on it and here.",
-        ),
-    ] = None,
+    workers: Workers = None,
+    scheduler: Scheduler = None,
     retry_failed: Annotated[
         bool, typer.Option("--retry-failed", help="Ask again what failed.")
     ] = False,

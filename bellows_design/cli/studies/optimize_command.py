@@ -10,6 +10,7 @@ import typer
 
 from bellows_design.cli.answer import answer
 from bellows_design.cli.options import AsJson, DesignName, DesignOptions, Settings
+from bellows_design.cli.studies.options import Scheduler, Workers
 
 
 class Sought(StrEnum):
@@ -79,21 +80,8 @@ def optimize(
     half: Annotated[
         bool, typer.Option("--half/--no-half", help="Also by the half actuator.")
     ] = True,
-    workers: Annotated[
-        int | None,
-        typer.Option(
-            metavar="N",
-            help="Processes of this machine; without it one for each processor; 0: this one only.",
-        ),
-    ] = None,
-    scheduler: Annotated[
-        str | None,
-        typer.Option(
-            metavar="ADDRESS",
-            help="The workers of this dask scheduler instead, tcp://host:8786. Only one that you "
-            "trust: whoever reaches it can run programs on it and here.",
-        ),
-    ] = None,
+    workers: Workers = None,
+    scheduler: Scheduler = None,
     plot: Annotated[
         Path | None, typer.Option(help="Also draw the front (.png); needs matplotlib.")
     ] = None,
