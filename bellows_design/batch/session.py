@@ -67,19 +67,23 @@ class Session:
         around = self._neighbourhood(question.start, question)
         if around is None:  # no neighbour can start there
             return self._ordinary(question.design, question)
-        return around.evaluate(question.design, budget=self._budget, reach=question.reach)
+        found = around.evaluate(question.design, budget=self._budget, reach=question.reach)
+        if found.fallback:  # an evaluation by itself, of the usual accuracy
+            _keep(self._fresh, (question.design.digest, None), found.anchor)
+        return found
 
     def _ordinary(self, design: Design, question: Question) -> Evaluation:
         from bellows_design.evaluation import evaluate
 
-        found = evaluate(
+        asked = design.digest, question.accuracy_percent
+        found = self._fresh.get(asked) or evaluate(
             design,
             self._model,
             question.accuracy_percent,
             budget=self._budget,
             keep=question.derivatives,
         )
-        _keep(self._fresh, (design.digest, question.accuracy_percent), found)
+        _keep(self._fresh, asked, found)
         return found
 
     def _neighbourhood(self, design: Design, question: Question) -> Neighbourhood | None:

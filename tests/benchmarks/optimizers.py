@@ -29,10 +29,10 @@ from bellows_design.batch.session import Session
 from bellows_design.design.shipped import load_design
 from bellows_design.study.optimize import stages
 from bellows_design.study.optimize.coordinator import Coordinator
-from bellows_design.study.optimize.global_stage import COUNTS, IMPOSSIBLE, Suggestion
 from bellows_design.study.optimize.goal import Goal
 from bellows_design.study.optimize.point import Point
 from bellows_design.study.optimize.run import study_of
+from bellows_design.study.optimize.search.global_stage import COUNTS, IMPOSSIBLE, Suggestion
 from bellows_design.study.optimize.space.choices import Bounds, Choice
 from bellows_design.study.optimize.stages import Effort, Optimization
 

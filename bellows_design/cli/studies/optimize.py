@@ -166,7 +166,7 @@ def optimize(
 def _optimization(
     options: DesignOptions, sought: GoalOptions, counted: CountOptions, seed: int
 ) -> Optimization:
-    from bellows_design.study.optimize.global_stage import require_optuna
+    from bellows_design.study.optimize.search.global_stage import require_optuna
     from bellows_design.study.optimize.space.choices import choices
     from bellows_design.study.optimize.stages import Optimization
 

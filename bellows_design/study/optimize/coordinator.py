@@ -16,9 +16,9 @@ from bellows_design.batch.answer import Answer
 from bellows_design.batch.executor import Executor
 from bellows_design.batch.results import Results
 from bellows_design.batch.schema import Row
-from bellows_design.study.optimize.descent import Search
 from bellows_design.study.optimize.goal import Goal
 from bellows_design.study.optimize.point import Point, Request
+from bellows_design.study.optimize.search.descent import Search
 from bellows_design.study.optimize.space.choices import Choice
 
 Told = Callable[["Coordinator"], None]

@@ -86,6 +86,11 @@ class Request:
     reach: float = REACH
     accuracy_percent: float | None = None
 
+    @property
+    def possible(self) -> bool:
+        """Whether there is such a design."""
+        return not self.variables.exists(self.values)
+
     @cached_property
     def question(self) -> Question:
         """What is asked, with derivatives."""

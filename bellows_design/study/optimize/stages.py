@@ -1,29 +1,33 @@
 """The stages of an optimization: all choices roughly, a few by gradients, those around the best.
 
-Global: designs of all choices, each by itself. Descents: by gradients, from the best starts of
-different choices. Around: the choices that differ in one count from the best one's, from its
-lengths, as long as that helps. Refined: the best few once more, on finer meshes. Front: likewise,
-at lower and higher limits of the stress.
+Global: designs of all choices, each by itself. Descents: by gradients, from the base and from those
+of other choices that promise most. Around: choices that differ in one count from the best one's,
+from its lengths, as long as that helps. Refined: the best few once more, on finer meshes. Front:
+likewise, at lower and higher limits of the stress.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 
 from bellows_design.design.design import Design
 from bellows_design.study.optimize.coordinator import Coordinator
-from bellows_design.study.optimize.descent import Descent
-from bellows_design.study.optimize.global_stage import GlobalStage
 from bellows_design.study.optimize.goal import Goal
 from bellows_design.study.optimize.point import Point, Request
+from bellows_design.study.optimize.search.descent import Descent, Search
+from bellows_design.study.optimize.search.global_stage import GlobalStage
+from bellows_design.study.optimize.search.promise import promise
 from bellows_design.study.optimize.space.choices import Bounds, Choice, choices
 from bellows_design.study.optimize.space.variables import Variables
 from solver.arrays import Reals
 
 WAVE = 4
 """Designs of the global stage that are chosen at once: the same whoever evaluates them."""
+
+MOST_PROMISING = 3
+"""Choices beside the best one's that are descended from at once."""
 
 FINE_PERCENT = 2.0
 """Accuracy of the last descents: the least error of a stress that is stated. On usual meshes the
@@ -46,7 +50,7 @@ class Effort:
         seed: Of the global stage.
     """
 
-    global_designs: int = 32
+    global_designs: int = 24
     starts: int = 4
     refined: int = 2
     front_limits: tuple[float, ...] = FRONT_LIMITS
@@ -77,13 +81,10 @@ class Optimization:
     def search(self, at: Coordinator) -> None:
         """Go through all stages; the points are the coordinator's."""
         all_choices = choices(self.base, self.bounds)
-        at.evaluated([self._base_request(all_choices)])
+        at.evaluated([self._request(nearest_choice(self.base, all_choices), self.base)])
         self._global(at, all_choices)
         if self.effort.gradients:
-            at.lead(
-                self.descent(each.variables, each.choice, at).search()
-                for each in at.most_promising(self.effort.starts)
-            )
+            at.lead(self._descent_from(each, at) for each in self._starts(at))
             self._around_the_best(at, all_choices)
             self._refined(at)
             self._front(at)
@@ -98,13 +99,6 @@ class Optimization:
         variables = self.variables(start.choice)
         return Descent(variables, goal, start.variables, accuracy_percent=FINE_PERCENT)
 
-    def _base_request(self, all_choices: Sequence[Choice]) -> Request:
-        """The base itself, as near as whole lines and the room allow."""
-        choice = nearest_choice(self.base, all_choices)
-        variables = self.variables(choice)
-        values = variables.rounded(variables.values(self.base))
-        return Request(variables, values, "ordinary")
-
     def _global(self, at: Coordinator, all_choices: Sequence[Choice]) -> None:
         stage = GlobalStage(all_choices, self.variables, self.effort.seed)
         left = self.effort.global_designs
@@ -117,19 +111,49 @@ class Optimization:
             for each, point in zip(wave, at.evaluated(requests), strict=True):
                 stage.tell(each, None if point is None else self.goal.merit(point.values))
 
+    def _descent_from(self, point: Point, at: Coordinator) -> Search:
+        return self.descent(point.variables, point.choice, at).search()
+
+    def _starts(self, at: Coordinator) -> list[Point]:
+        """The base, and those of other choices that promise most."""
+        best = self._by_promise(at.points[1:])
+        return [*at.points[:1], *best][: self.effort.starts]
+
+    def _by_promise(self, points: Iterable[Point]) -> list[Point]:
+        """The point of each choice that promises most, the best first."""
+
+        def promised(point: Point) -> float:
+            return promise(point, self.variables(point.choice), self.goal)
+
+        found: dict[Choice, Point] = {}
+        for point in sorted((each for each in points if each.ordinary), key=promised):
+            found.setdefault(point.choice, point)
+        return list(found.values())
+
     def _around_the_best(self, at: Coordinator, all_choices: Sequence[Choice]) -> None:
-        """Descents of the choices beside the best one's, until none of them is better."""
+        """Descents of the choices beside the best one's that promise most, while that helps.
+
+        Each of these is evaluated once, at the best one's lengths as far as they fit, to tell what
+        it promises.
+        """
         looked_at: set[Choice] = set()
         while not at.late:
             best = next(iter(at.most_promising(1)), None)
-            if best is None or best.choice in looked_at:
+            if best is None:
                 return
-            looked_at.add(best.choice)
             others = [each for each in beside(best.choice, all_choices) if each not in looked_at]
-            at.lead(
-                self.descent(self.variables(each).values(best.design), each, at).search()
-                for each in others
-            )
+            if not others:
+                return
+            looked_at.update({best.choice, *others})
+            requests = [self._request(each, best.design) for each in others]
+            points = at.evaluated([each for each in requests if each.possible])
+            chosen = self._by_promise(each for each in points if each is not None)
+            at.lead(self._descent_from(each, at) for each in chosen[:MOST_PROMISING])
+
+    def _request(self, choice: Choice, design: Design) -> Request:
+        """A design evaluated by itself, as near as a choice allows."""
+        variables = self.variables(choice)
+        return Request(variables, variables.rounded(variables.values(design)), "ordinary")
 
     def _refined(self, at: Coordinator) -> None:
         """Descents on finer meshes, from the best of a few choices."""

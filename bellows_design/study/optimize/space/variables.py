@@ -134,15 +134,19 @@ class Variables:
         return np.array([found[name] for name in self.names])
 
     def within_room(self, values: Reals) -> Reals:
-        """The values with chambers and gaps shortened alike until the bubbles fit."""
+        """The values with chambers and gaps shortened alike until the bubbles fit.
+
+        An indent is no wider than its bubble is long.
+        """
         values = values.copy()
         excess = self.train_excess(values)
-        if excess <= 0:
-            return values
         spare = (values - self.lower) * self.train_gradient
-        total = spare.sum()
-        if total > 0:
-            values -= (values - self.lower) * (self.train_gradient > 0) * min(1.0, excess / total)
+        if excess > 0 and spare.sum() > 0:
+            share = min(1.0, excess / spare.sum())
+            values -= (values - self.lower) * (self.train_gradient > 0) * share
+        if self.choice.indent_layers:
+            place = self.names.index("indent.width")
+            values[place] = min(values[place], values[0] + 2 * self.bubble_wall)
         return values
 
     def train_excess(self, values: Reals) -> float:

@@ -19,11 +19,11 @@ from bellows_design.design.shipped import load_design
 from bellows_design.design.topology import same_topology
 from bellows_design.errors import DesignError
 from bellows_design.neighbours.distance import distance
-from bellows_design.study.optimize.allowed import SEARCH_REACH
 from bellows_design.study.optimize.coordinator import Coordinator
-from bellows_design.study.optimize.descent import Descent
 from bellows_design.study.optimize.goal import MARGIN, Goal
 from bellows_design.study.optimize.run import study_of
+from bellows_design.study.optimize.search.allowed import SEARCH_REACH
+from bellows_design.study.optimize.search.descent import Descent
 from bellows_design.study.optimize.space.choices import Bounds, Choice
 from bellows_design.study.optimize.space.variables import Variables
 from bellows_design.study.optimize.stages import Effort, Optimization

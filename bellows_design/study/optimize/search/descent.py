@@ -16,10 +16,10 @@ import numpy as np
 
 from bellows_design.design.design import Design
 from bellows_design.neighbours.distance import distance
-from bellows_design.study.optimize.allowed import CLEARANCE, SEARCH_REACH, Allowed
 from bellows_design.study.optimize.goal import Goal
-from bellows_design.study.optimize.linear_step import linear_step
 from bellows_design.study.optimize.point import Point, Request, gradients
+from bellows_design.study.optimize.search.allowed import CLEARANCE, SEARCH_REACH, Allowed
+from bellows_design.study.optimize.search.linear_step import linear_step
 from bellows_design.study.optimize.space.variables import Variables
 from solver.arrays import Reals
 
@@ -100,7 +100,9 @@ class Descent:
             if values is None:
                 break
             point = yield self._request(values, anchor.design)
-            if point is None or point.ordinary:  # no neighbour led there after all
+            if point is not None and point.ordinary and self._merit(point) < self._merit(at):
+                return point  # no neighbour led there, but it is a good start for another round
+            if point is None or point.ordinary:
                 steps.radius /= 2
                 continue
             gap.learn(at, point, gradients(at, self.variables, self.goal)["gap"])
