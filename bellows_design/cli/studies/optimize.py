@@ -41,6 +41,11 @@ class GoalOptions:
         from bellows_design.study.optimize.goal import LEAST_GAP, Goal
 
         most = base.max_von_mises if self.stress is None else self.stress
+        if most > base.max_von_mises:
+            raise DesignError(
+                f"--stress is {most:g} MPa but must not exceed the design's limit of "
+                f"{base.max_von_mises:g} MPa; --set limits.max_von_mises changes that."
+            )
         strain = None if self.strain is None else self.strain / 100
         gap = None if self.touching else LEAST_GAP
         return Goal(cast("Quantity", self.quantity), most, self.angle, strain, gap)
@@ -89,6 +94,12 @@ class OptimumFiles:
             raise DesignError(f"{str(self.folder)!r} is a file, not a folder to write to.")
         if not self.folder.parent.is_dir():
             raise DesignError(f"there is no folder {str(self.folder.parent)!r} to write to.")
+        if self.folder.is_dir() and any(self.folder.iterdir()) and not self.results.is_file():
+            raise DesignError(
+                f"{str(self.folder)!r} holds other files; name a folder of its own for the optimum."
+            )
+        if self.plot is not None and self.plot.parent != self.folder:
+            require_plot(self.plot)
         self.folder.mkdir(exist_ok=True)
         require_file(self.results, ".sqlite")
         require_plot(self.plot)
@@ -158,8 +169,7 @@ def optimize(
     if files.plot is not None:
         writers.append(partial(plot_optimum, found, files.plot))
     failed = unwritten(*writers)
-    verified = found.verification is None or found.verification.holds
-    status = NOT_SOLVED if found.best is None else DONE if verified else REFUSED
+    status = NOT_SOLVED if found.best is None else DONE if found.holds else REFUSED
     return Answer(content, optimum_tables(found, designs, files.folder), status, failed)
 
 
@@ -167,7 +177,6 @@ def _optimization(
     options: DesignOptions, sought: GoalOptions, counted: CountOptions, seed: int
 ) -> Optimization:
     from bellows_design.study.optimize.search.global_stage import require_optuna
-    from bellows_design.study.optimize.space.choices import choices
     from bellows_design.study.optimize.stages import Optimization
 
     if seed < 0:
@@ -175,13 +184,18 @@ def _optimization(
     base = options.load()
     base.profile()
     require_optuna()
+    if base.load.pressure < 0:
+        raise DesignError(
+            f"load.pressure is {base.load.pressure:g} MPa, but an optimization needs one above 0."
+        )
     goal, bounds = sought.goal(base), counted.bounds(base)
-    if not choices(base, bounds):
+    optimization = Optimization(base, goal, bounds, _effort(seed))
+    if not optimization.choices:
         raise DesignError(
             f"no number of bubbles fits into length = {base.bellows.length:g} mm after offset = "
-            f"{base.bellows.offset:g} mm within these lines and gaps."
+            f"{base.bellows.offset:g} mm within these lines, gaps and passages."
         )
-    return Optimization(base, goal, bounds, _effort(seed))
+    return optimization
 
 
 def _effort(seed: int) -> Effort:

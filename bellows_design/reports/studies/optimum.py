@@ -56,6 +56,8 @@ def _best(optimum: Optimum) -> Iterator[str]:
         return
     if optimum.filling_seconds is not None:
         yield f"air fills the best in about {1000 * optimum.filling_seconds:.0f} ms"
+    if optimum.failure:
+        yield f"the best could not be verified: {optimum.failure}"
     if optimum.verification is not None:
         yield from _verification(optimum.verification)
 
@@ -67,11 +69,12 @@ def _verification(found: Verification) -> Iterator[str]:
     if found.failure:
         yield f"half actuator: {found.failure}"
     if found.holds:
-        yield "the best holds: printable, and within its limits on both with their errors"
+        yield "the best holds: printable, and within its limits with the errors stated"
     for reason in found.verdict.reasons:
         yield f"the best does not hold: {reason.rule}: {reason.message}"
     if found.verdict.approved and not found.holds:
-        yield "the best does not hold on the half actuator"
+        most = f"{found.stress_with_error_mpa:.2f} MPa with its error"
+        yield f"the best does not hold: up to {most}, or another limit is not kept"
 
 
 def _numbers(found: Evaluation) -> str:

@@ -78,7 +78,8 @@ class Coordinator:
                 self._go_on(waiting.pop(0), None, free.pop(0), at_work, free)
             if at_work:
                 done, _ = wait(at_work, return_when=FIRST_COMPLETED)
-                for future in done:
+                # What is answered is kept before an error of another one ends all.
+                for future in sorted(done, key=lambda each: each.exception() is not None):
                     search, request, lane = at_work.pop(future)
                     point = self._kept(request, future.result())
                     self._go_on(search, point, lane, at_work, free, begun=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
 from dataclasses import asdict
 from pathlib import Path
@@ -35,20 +36,27 @@ def as_design(name: str, point: Point) -> Design:
 def write_designs(designs: Mapping[str, Point], content: dict[str, Any], folder: Path) -> None:
     """Every design as a TOML file that ``bellows run`` takes, and a summary; each file whole.
 
-    Designs of an earlier run that are not on the front any more are removed.
+    Designs that an earlier run's summary names and that are not on the front any more are removed.
     """
     from bellows_design.files.atomic import replacing
     from bellows_design.files.json_files import write_json
 
+    for name in _earlier(folder) - designs.keys():
+        (folder / f"{name}.toml").unlink(missing_ok=True)
     for name, point in designs.items():
         with replacing(folder / f"{name}.toml") as temporary:
             temporary.write_text(as_design(name, point).to_toml(), "utf-8")
-    place = len(designs)
-    stem = next(iter(designs), "").rpartition("-")[0]
-    while stem and (old := folder / f"{stem}-{place}.toml").exists():
-        old.unlink()
-        place += 1
     write_json(content, folder / SUMMARY)
+
+
+def _earlier(folder: Path) -> set[str]:
+    """Names of the designs that the summary of an earlier run lists; none without one."""
+    try:
+        rows = json.loads((folder / SUMMARY).read_text("utf-8"))["front"]
+        names = {str(row["design"]) for row in rows}
+    except (OSError, ValueError, KeyError, TypeError):
+        return set()
+    return {name for name in names if Path(name).name == name}
 
 
 def content_of(optimum: Optimum, designs: Mapping[str, Point]) -> dict[str, Any]:
@@ -61,6 +69,7 @@ def content_of(optimum: Optimum, designs: Mapping[str, Point]) -> dict[str, Any]
         "best": next(iter(designs), None) if optimum.best is not None else None,
         "front": [_row(name, point) for name, point in designs.items()],
         "verification": None if optimum.verification is None else optimum.verification.to_dict(),
+        "verification_failure": optimum.failure or None,
         "filling_seconds": optimum.filling_seconds,
         "evaluations": {
             "asked": optimum.asked,

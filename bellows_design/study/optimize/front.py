@@ -4,17 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from bellows_design.study.optimize.goal import Goal
 from bellows_design.study.optimize.point import Point
 
 
-def front(points: Iterable[Point]) -> tuple[Point, ...]:
+def front(points: Iterable[Point], goal: Goal) -> tuple[Point, ...]:
     """The non-dominated ones of those evaluated by themselves, from the least stress on.
+
+    They keep all limits of the goal but that of the stress.
 
     Larger angle and lower stress are better; of equal ones the first stays. Stresses count as
     they are: each has an error of its own beside it.
     """
     by_stress = sorted(
-        (point for point in points if point.ordinary),
+        (each for each in points if each.ordinary and goal.kept_but_for_stress(each.values)),
         key=lambda point: (point.values["stress"], -point.values["angle"]),
     )
     found: list[Point] = []

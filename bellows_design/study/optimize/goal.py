@@ -26,11 +26,14 @@ CONTACT_DEPTH = 0.05
 """mm. By how much bubbles that touch are moved apart at first."""
 
 TOLERANCE = 1e-3
-"""Fraction by which a limit may be exceeded on the way."""
+"""Fraction by which a search aims at less than a limit: it comes so near to its aim."""
+
+GAP_SCALE = 0.1
+"""mm of gap that count as much as a logarithm of 1 of another response."""
 
 PENALTY = 5.0
 """Weight of a violation beside the quantity sought, both as logarithms. It exceeds the ratio of
-their elasticities, so that breaking a limit never pays: angle and stress change about alike."""
+their elasticities, so that more stress than allowed never pays: both change about alike."""
 
 
 @dataclass(frozen=True)
@@ -83,15 +86,17 @@ class Goal:
     def limits(self, values: Mapping[str, float]) -> dict[str, float]:
         """Logarithms of value over limit, by response; positive where a limit is exceeded.
 
-        Of a gap, which may be negative, the millimetres that it lacks.
+        Of a gap, which may be negative, what it lacks in ``GAP_SCALE``.
         """
-        found = {"stress": math.log(values["stress"] * (1 + MARGIN) / self.most_stress_mpa)}
+        stress = values["stress"] * (1 + MARGIN) * (1 + TOLERANCE)
+        found = {"stress": math.log(stress / self.most_stress_mpa)}
         if self.most_strain is not None:
             found["strain"] = math.log(values["strain"] / self.most_strain)
         if self.least_angle_deg is not None:
-            found["angle"] = math.log(self.least_angle_deg / max(values["angle"], 1e-9))
+            required = self.least_angle_deg * (1 + TOLERANCE)
+            found["angle"] = math.log(required / max(values["angle"], 1e-9))
         if self.least_gap_mm is not None and "gap" in values:
-            found["gap"] = self.least_gap_mm - values["gap"]
+            found["gap"] = self.least_gap_mm / GAP_SCALE - values["gap"]
         return found
 
     def violation(self, values: Mapping[str, float]) -> float:
@@ -103,12 +108,16 @@ class Goal:
         return self.objective(values) + PENALTY * self.violation(values)
 
     def kept(self, values: Mapping[str, float]) -> bool:
-        """Whether all limits are kept, within the tolerance of a search."""
-        return self.violation(values) <= TOLERANCE
+        """Whether all limits are kept: a search aims at a little less than them."""
+        return all(each <= TOLERANCE for each in self.limits(values).values())
+
+    def kept_but_for_stress(self, values: Mapping[str, float]) -> bool:
+        """Whether all limits but that of the stress are."""
+        return self.kept({**values, "stress": 1e-9})
 
 
 def responses(answer: Answer) -> dict[str, float]:
-    """What goals are about: angle (°), stress (MPa), air (mm³), strain and gap (mm) of an answer.
+    """What goals are about: angle (°), stress (MPa), air (mm³), strain and gap (``GAP_SCALE``).
 
     Walls that touch would run into each other by an unknown depth if they were let.
     """
@@ -118,6 +127,6 @@ def responses(answer: Answer) -> dict[str, float]:
         "stress": answer.max_von_mises_mpa,
         "volume": answer.cavity_volume_mm3,
         "strain": answer.highest_strain,
-        "gap": gap if gap is None or gap > 0 else -CONTACT_DEPTH,
+        "gap": None if gap is None else (gap if gap > 0 else -CONTACT_DEPTH) / GAP_SCALE,
     }
     return {name: value for name, value in found.items() if value is not None}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Literal
@@ -12,7 +13,7 @@ from bellows_design.batch.answer import Answer
 from bellows_design.batch.question import Question
 from bellows_design.design.design import Design
 from bellows_design.neighbours.carried import REACH
-from bellows_design.study.optimize.goal import MARGIN, Goal, responses
+from bellows_design.study.optimize.goal import GAP_SCALE, MARGIN, Goal, responses
 from bellows_design.study.optimize.space.choices import Choice
 from bellows_design.study.optimize.space.variables import Variables
 from solver.arrays import Reals
@@ -28,7 +29,7 @@ CLOSING = 0.034
 """mm by degree that a bubble turns: by so much did the gap close, 0.031 to 0.035, in three steps
 between designs of nine bubbles at 59 to 61 degrees each, besides the change of the distance."""
 
-STEP = 0.01
+STEP = 1e-3
 """Relative step of the difference quotients of the volume of material."""
 
 
@@ -99,7 +100,7 @@ class Request:
             self.start,
             derivatives=True,
             accuracy_percent=self.accuracy_percent,
-            reach=self.reach,
+            reach=REACH if isinstance(self.start, str) else self.reach,
         )
 
     def point(self, answer: Answer, goal: Goal) -> Point | None:
@@ -116,60 +117,62 @@ def gradients(point: Point, variables: Variables, goal: Goal) -> dict[str, Reals
     """Of the logarithm of each response by the logarithm of each variable (elasticities).
 
     A strain changes as the stress does, which is all that is known of it: near enough for a step.
-    Of the gap it is millimetres by a logarithm.
+    Of the gap it is ``GAP_SCALE`` by a logarithm.
     """
-    derivatives = point.answer.derivatives or {}
     found = {
-        name: variables.gradient(point.variables, derivatives[key])
-        * point.variables
-        / point.values[name]
+        name: _derivatives(point, variables, key) * point.variables / point.values[name]
         for name, key in RESPONSES.items()
     }
     found["strain"] = found["stress"]
-    found["gap"] = _gap_slope(point, variables, found["angle"])
+    found["gap"] = gap_slope(point, variables)
     if goal.quantity == "material":
         found["material"] = _material_gradient(point, variables)
     return found
 
 
-def _gap_slope(point: Point, variables: Variables, angle: Reals) -> Reals:
-    """Of the gap under pressure by the logarithms of the variables, mm.
+def gap_slope(point: Point, variables: Variables) -> Reals:
+    """Of the gap under pressure by the logarithms of the variables, in ``GAP_SCALE``.
 
     It is wider by what the bubble distance is, and closes as bubbles turn against each other.
     """
-    is_distance = np.array([name == "bubble_distance" for name in variables.names])
-    turned = point.values["angle"] / point.choice.bubbles
-    slope: Reals = is_distance * point.variables - CLOSING * turned * angle
+    distance = np.array([name == "bubble_distance" for name in variables.names])
+    turned = _derivatives(point, variables, "bending_angle_deg") / point.choice.bubbles
+    slope: Reals = (distance - CLOSING * turned) * point.variables / GAP_SCALE
     return slope
 
 
-def material_volume(design: Design) -> float:
-    """Volume of the printed part, mm³."""
-    from bellows_design.geometry.actuator import printed_part
+def _derivatives(point: Point, variables: Variables, response: str) -> Reals:
+    """Of a response by the variables."""
+    derivatives = point.answer.derivatives
+    assert derivatives is not None, "every question asks for them"
+    return variables.gradient(point.variables, derivatives[response])
 
-    return float(printed_part(design.bellows, design.indent, design.port).solid.Volume())
+
+def material_volume(design: Design) -> float:
+    """Material of the part as if its boxes were sharp, mm³; without the port.
+
+    What fillets take, a few percent, hardly depends on the lengths that are varied.
+    """
+    p = design.bellows
+    shells = p.bubble_count * (math.prod(p.bubble_size) - math.prod(p.chamber_size))
+    between = p.length - p.bubble_count * p.bubble_length
+    channel = p.channel_width * p.channel_height
+    walls = p.bubble_count * 2 * p.bubble_thickness
+    return shells + between * p.tendon_width * p.tendon_height - channel * (between + walls)
 
 
 def _material_gradient(point: Point, variables: Variables) -> Reals:
-    """By central differences of the CAD solid, which cost about as much as one solution."""
+    """By central differences of the sharp boxes."""
     found = np.zeros(len(point.variables))
     for index in range(len(found)):
-        ends = []
-        for sign in (1.0, -1.0):
-            moved = point.variables.copy()
-            moved[index] *= 1 + sign * STEP
-            ends.append((moved[index], _material_or_none(variables, moved)))
-        (high, ahead), (low, behind) = ends
-        ahead = point.values["material"] if ahead is None else ahead
-        behind = point.values["material"] if behind is None else behind
-        found[index] = np.log(ahead / behind) / np.log(high / low)
+        moved = np.array([point.variables, point.variables])
+        moved[:, index] *= 1 + STEP, 1 - STEP
+        ahead, behind = (_material_near(point, variables, values) for values in moved)
+        found[index] = math.log(ahead / behind) / math.log((1 + STEP) / (1 - STEP))
     return found
 
 
-def _material_or_none(variables: Variables, values: Reals) -> float | None:
-    from bellows_design.errors import BellowsError
-
-    try:
-        return material_volume(variables.design(values))
-    except BellowsError:
-        return None
+def _material_near(point: Point, variables: Variables, values: Reals) -> float:
+    """That of a design beside a point; the point's own where there is none."""
+    exists = not variables.exists(values)
+    return material_volume(variables.design(values)) if exists else point.values["material"]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable
 from contextlib import closing
@@ -11,6 +12,7 @@ from typing import Any
 from bellows_design.batch.executor import Executor
 from bellows_design.batch.results import Results, Study
 from bellows_design.budget import DEFAULT, Budget
+from bellows_design.errors import BellowsError
 from bellows_design.progress import SILENCE, Progress
 from bellows_design.study.optimize.coordinator import Coordinator
 from bellows_design.study.optimize.front import front
@@ -18,6 +20,7 @@ from bellows_design.study.optimize.point import Point
 from bellows_design.study.optimize.space.passage import filling_seconds
 from bellows_design.study.optimize.stages import Optimization
 from bellows_design.study.optimize.verification import Verification, verified
+from solver.errors import MeshingError, SolverError
 
 VERIFYING = 0.2
 """Fraction of the time that is kept for the verification of the best."""
@@ -39,6 +42,7 @@ class Optimum:
         front: Designs that no other one beats in angle and stress together, by rising stress.
         points: Every design that was evaluated, in this run or one before.
         verification: Of the best; None without one.
+        failure: Why the best could not be verified; empty if it was, or was not to be.
         asked, known, failed: Designs evaluated now, known from before, and without a result.
         seconds: Of this run.
         evaluation_seconds: Of all evaluations of this run together, on all workers.
@@ -50,12 +54,19 @@ class Optimum:
     front: tuple[Point, ...]
     points: tuple[Point, ...]
     verification: Verification | None
+    failure: str
     asked: int
     known: int
     failed: int
     seconds: float
     evaluation_seconds: float
     in_time: bool
+
+    @property
+    def holds(self) -> bool:
+        """Whether nothing speaks against the best; true of one that was not to be verified."""
+        verified = self.verification is None or self.verification.holds
+        return self.best is not None and verified and not self.failure
 
     @property
     def filling_seconds(self) -> float | None:
@@ -120,16 +131,22 @@ def optimize(
         )
         optimization.search(coordinator)
         in_time = not coordinator.late
-        best, verification = coordinator.best(), None
+        best, verification, failure = coordinator.best(), None, ""
         if verify and best is not None:
             coordinator.deadline = began + 60 * minutes
-            best, verification = _verified(optimization, coordinator, best, half, progress, budget)
+            try:
+                best, verification = _verified(
+                    optimization, coordinator, best, half, progress, budget
+                )
+            except (BellowsError, MeshingError, SolverError) as error:
+                failure = str(error)
     return Optimum(
         optimization,
         best,
-        front(coordinator.points),
+        front(coordinator.points, optimization.goal),
         tuple(coordinator.points),
         verification,
+        failure,
         coordinator.asked,
         coordinator.known,
         coordinator.failed,
@@ -148,12 +165,13 @@ def _verified(
     budget: Budget,
 ) -> tuple[Point, Verification]:
     """The best and what its verification says; sought again within a lower limit if it fails."""
-    found = verified(best.design, half, progress, budget)
-    goal, limit = optimization.goal, optimization.goal.most_stress_mpa
+    sought, limit = optimization.goal, optimization.goal.most_stress_mpa
+    found = verified(best.design, sought, half, progress, budget)
+    goal = sought
     for _ in range(MOST_CORRECTIONS):
-        if found.stress_with_error_mpa <= limit or coordinator.late:
-            break
         excess = found.stress_with_error_mpa / limit
+        if not 1 < excess < math.inf or coordinator.late:
+            break
         goal = replace(goal, most_stress_mpa=goal.most_stress_mpa / excess)
         before = len(coordinator.points)
         coordinator.lead([optimization.fine_descent(best, goal).search()])
@@ -161,7 +179,7 @@ def _verified(
         if not kept:
             break
         best = min(kept, key=lambda point: goal.merit(point.values))
-        found = verified(best.design, half, progress, budget)
+        found = verified(best.design, sought, half, progress, budget)
     return best, found
 
 

@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 from bellows_design.design.design import Design
 from bellows_design.study.optimize.coordinator import Coordinator
@@ -78,13 +79,20 @@ class Optimization:
         """Those of one choice."""
         return Variables(self.base, choice, self.bounds)
 
+    @cached_property
+    def choices(self) -> tuple[Choice, ...]:
+        """All combinations of counts for which there is a design."""
+        found = choices(self.base, self.bounds)
+        return tuple(each for each in found if self.variables(each).possible)
+
     def search(self, at: Coordinator) -> None:
         """Go through all stages; the points are the coordinator's."""
-        all_choices = choices(self.base, self.bounds)
-        at.evaluated([self._request(nearest_choice(self.base, all_choices), self.base)])
+        all_choices = self.choices
+        base = self._request(nearest_choice(self.base, all_choices), self.base)
+        first = at.evaluated([base])[0] if base.possible else None
         self._global(at, all_choices)
         if self.effort.gradients:
-            at.lead(self._descent_from(each, at) for each in self._starts(at))
+            at.lead(self._descent_from(each, at) for each in self._starts(at, first))
             self._around_the_best(at, all_choices)
             self._refined(at)
             self._front(at)
@@ -114,10 +122,12 @@ class Optimization:
     def _descent_from(self, point: Point, at: Coordinator) -> Search:
         return self.descent(point.variables, point.choice, at).search()
 
-    def _starts(self, at: Coordinator) -> list[Point]:
+    def _starts(self, at: Coordinator, first: Point | None) -> list[Point]:
         """The base, and those of other choices that promise most."""
-        best = self._by_promise(at.points[1:])
-        return [*at.points[:1], *best][: self.effort.starts]
+        starts = [] if first is None else [first]
+        taken = {each.choice for each in starts}
+        others = self._by_promise(each for each in at.points if each.choice not in taken)
+        return [*starts, *others][: self.effort.starts]
 
     def _by_promise(self, points: Iterable[Point]) -> list[Point]:
         """The point of each choice that promises most, the best first."""

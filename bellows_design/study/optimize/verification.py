@@ -6,12 +6,14 @@ as many meshes as its limits need, and compared with the half actuator, which ha
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from bellows_design.budget import DEFAULT, Budget
 from bellows_design.design.design import Design
 from bellows_design.progress import SILENCE, Progress
+from bellows_design.study.optimize.goal import Goal
 
 if TYPE_CHECKING:
     from bellows_design.analysis.evaluation import Evaluation, LoadedState
@@ -37,14 +39,16 @@ class Verification:
 
     Attributes:
         design: The design.
+        goal: Whose limits it must keep.
         report: Printability of its part.
         cell: The usual model on finer meshes.
         verdict: By both.
-        half: The half actuator; None if it was not asked for.
+        half: The half actuator; None if it was not asked for, or gave no result.
         failure: Why the half actuator gave no result; empty if it did, or was not asked for.
     """
 
     design: Design
+    goal: Goal
     report: PrintabilityReport
     cell: Evaluation
     verdict: Verdict
@@ -53,15 +57,21 @@ class Verification:
 
     @property
     def stress_with_error_mpa(self) -> float:
-        """Highest stress of any model that was solved, including its estimated error."""
-        return max(_with_error(each) for each in (self.cell, self.half) if each is not None)
+        """Highest stress of any model that was solved, including its estimated error.
+
+        Infinite where an error is unknown.
+        """
+        return max(_stress_with_error(each) for each in self._states)
 
     @property
     def holds(self) -> bool:
-        """Whether the design is approved, and by the half actuator too where there is one."""
-        limit = self.design.max_von_mises
-        half_failed = self.half is not None and not self.half.converged
-        return self.verdict.approved and not half_failed and self.stress_with_error_mpa <= limit
+        """Whether it is approved, and keeps the goal's limits by every model, errors included."""
+        kept = all(_keeps(each, self.goal) for each in self._states)
+        return self.verdict.approved and not self.failure and kept
+
+    @property
+    def _states(self) -> list[Evaluation]:
+        return [each for each in (self.cell, self.half) if each is not None]
 
     def to_dict(self) -> dict[str, Any]:
         """Plain values for JSON."""
@@ -76,6 +86,7 @@ class Verification:
 
 def verified(
     design: Design,
+    goal: Goal,
     half: bool = True,
     progress: Progress = SILENCE,
     budget: Budget = DEFAULT,
@@ -84,6 +95,7 @@ def verified(
 
     Args:
         design: What was found.
+        goal: Whose limits it must keep.
         half: Also by the half actuator, which takes about a minute.
         progress: Listens to stages and load.
         budget: Of each evaluation.
@@ -107,21 +119,23 @@ def verified(
         budget=budget,
         open_question=question,
     )
-    found = Verification(design, report, cell, decide(design, report, cell))
+    found = Verification(design, goal, report, cell, decide(design, report, cell))
     return _with_half(found, progress, budget) if half else found
 
 
 def _with_half(found: Verification, progress: Progress, budget: Budget) -> Verification:
     from bellows_design.errors import BellowsError
     from bellows_design.evaluation import evaluate
-    from solver.errors import SolverError
+    from solver.errors import MeshingError, SolverError
 
     try:
         half = evaluate(
             found.design, "half", HALF_PERCENT, progress=progress, budget=_for_half(budget)
         )
-    except (BellowsError, SolverError) as error:
+    except (BellowsError, MeshingError, SolverError) as error:
         return replace(found, failure=str(error))
+    if not half.converged:
+        return replace(found, failure=half.message)
     return replace(found, half=half)
 
 
@@ -137,9 +151,21 @@ def _for_half(budget: Budget) -> Budget:
     )
 
 
-def _with_error(state: Evaluation) -> float:
-    percent = state.error_estimate.max_von_mises_percent or 0.0
-    return state.max_von_mises_mpa * (1 + percent / 100)
+def _stress_with_error(state: Evaluation) -> float:
+    percent = state.error_estimate.max_von_mises_percent
+    return math.inf if percent is None else state.max_von_mises_mpa * (1 + percent / 100)
+
+
+def _keeps(state: Evaluation, goal: Goal) -> bool:
+    """Whether a state keeps a goal's limits, its stress with its own error."""
+    strain, gap = goal.most_strain, state.contact.min_gap_mm
+    touching = goal.least_gap_mm is not None and gap is not None and gap <= 0
+    return (
+        _stress_with_error(state) <= goal.most_stress_mpa
+        and (goal.least_angle_deg or 0.0) <= state.bending_angle_deg
+        and (strain is None or state.strain.highest <= strain)
+        and not (touching and state.contact.detected)
+    )
 
 
 def _summary(found: Evaluation) -> dict[str, Any]:

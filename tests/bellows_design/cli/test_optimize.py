@@ -10,9 +10,12 @@ from power_law import answered
 
 from bellows_design.approval import Reason, Verdict
 from bellows_design.design.design import Design
+from bellows_design.study.optimize.goal import Goal
 from bellows_design.study.optimize.stages import Effort
 from bellows_design.study.optimize.verification import Verification
+from solver.errors import MeshingError
 
+GOAL = Goal("angle", 4.0)
 SMALL = ("optimize", "finger", "--workers", "0", "--lines", "3", "--no-verify", "--minutes", "1")
 
 
@@ -73,7 +76,7 @@ def test_an_optimum_that_does_not_hold_is_refused(bellows, made_up, tmp_path, mo
     def verified(design, *_):
         reason = Reason("stress", "max_von_mises", 4.2, 4.0, "MPa", "It is above the limit.")
         cell = FakeEvaluation(max_von_mises_mpa=4.2)
-        return Verification(design, fake_report(), cell, Verdict((reason,)))
+        return Verification(design, GOAL, fake_report(), cell, Verdict((reason,)))
 
     monkeypatch.setattr("bellows_design.study.optimize.run.verified", verified)
     arguments = [each for each in SMALL if each != "--no-verify"]
@@ -88,7 +91,46 @@ def test_no_design_within_the_limits_is_no_optimum(bellows, made_up, tmp_path):
         *SMALL, "--goal", "stress", "--angle", "5000", "-o", str(tmp_path / "out"), "--json"
     )
     assert status == 3
-    assert json.loads(out)["best"] is None
+    found = json.loads(out)
+    assert found["best"] is None
+    written = {path.stem for path in (tmp_path / "out").glob("*.toml")}
+    assert written == {row["design"] for row in found["front"]}
+
+
+def test_a_verification_that_fails_refuses_and_keeps_the_front(
+    bellows, made_up, tmp_path, monkeypatch
+):
+    def verified(*_):
+        raise MeshingError("no mesh.")
+
+    monkeypatch.setattr("bellows_design.study.optimize.run.verified", verified)
+    arguments = [each for each in SMALL if each != "--no-verify"]
+    status, out, _ = bellows(*arguments, "-o", str(tmp_path / "out"), "--json")
+    assert status == 1
+    assert json.loads(out)["verification_failure"] == "no mesh."
+    assert (tmp_path / "out" / "finger-best.toml").exists()
+
+
+def test_designs_that_left_the_front_are_removed_and_nothing_else(bellows, made_up, tmp_path):
+    folder = tmp_path / "out"
+    command = (*SMALL, "-o", str(folder), "--json")
+    bellows(*command)
+    summary = json.loads((folder / "optimum.json").read_text("utf-8"))
+    gone, mine = folder / "finger-99.toml", folder / "finger-98.toml"
+    gone.write_text("old")
+    mine.write_text("mine")
+    summary["front"].append({"design": "finger-99"})
+    (folder / "optimum.json").write_text(json.dumps(summary), "utf-8")
+    bellows(*command)
+    assert not gone.exists()
+    assert mine.read_text() == "mine"
+
+
+def test_a_folder_with_other_files_is_refused(bellows, tmp_path):
+    (tmp_path / "finger-1.toml").write_text("mine")
+    status, _, err = bellows("optimize", "finger", "-o", str(tmp_path))
+    assert status == 2
+    assert "holds other files" in err
 
 
 def test_the_picture_of_the_front_is_drawn(bellows, made_up, tmp_path):
@@ -112,6 +154,10 @@ def test_the_picture_of_the_front_is_drawn(bellows, made_up, tmp_path):
         (("--passage", "30"), "--passage is 30 mm but must be 0.4 to 20 mm"),
         (("--bubbles", "60"), "no number of bubbles fits into length = 50 mm"),
         (("--seed", "-1"), "--seed is -1 but must be 0 or more"),
+        (("--stress", "4.5"), "--stress is 4.5 MPa but must not exceed the design's limit of 4"),
+        (("--passage", "19"), "no number of bubbles fits"),
+        (("--set", "load.pressure=-0.03"), "load.pressure is -0.03 MPa, but an optimization needs"),
+        (("--plot", "front.jpg"), "must end in .png"),
         (("--workers", "-1"), "--workers is -1"),
     ],
 )

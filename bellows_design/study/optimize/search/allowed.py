@@ -39,8 +39,8 @@ evaluated by itself before the search goes on."""
 SPARE_REACH = 0.95
 """Fraction of that distance that is used."""
 
-RELATIVE_STEP = 1e-4
-"""Of difference quotients by the variables."""
+BOTH_SIDES = (1e-4, -1e-4)
+"""Steps of difference quotients by the logarithms of the variables."""
 
 
 @dataclass(frozen=True)
@@ -67,12 +67,10 @@ class Allowed:
         here = self.margins(at.variables)
         slopes = {name: np.zeros(len(at.variables)) for name in here}
         for index in range(len(at.variables)):
-            for sign in (1.0, -1.0):
-                there = self._beside(at, index, sign * RELATIVE_STEP)
-                for name in here:
-                    if there is not None and name in there:
-                        slope = (there[name] - here[name]) / (sign * RELATIVE_STEP)
-                        slopes[name][index] += slope / 2
+            beside = [(step, self._beside(at, index, step)) for step in BOTH_SIDES]
+            for name, value in here.items():
+                found = [(there[name] - value) / step for step, there in beside if name in there]
+                slopes[name][index] = np.mean(found) if found else 0.0
         return {name: (value, slopes[name]) for name, value in here.items()}
 
     def refused(self, values: Reals) -> str:
@@ -93,13 +91,14 @@ class Allowed:
             if abs(length) > 1e-9 and name in after
         }
 
-    def _beside(self, at: Point, index: int, step: float) -> dict[str, float] | None:
+    def _beside(self, at: Point, index: int, step: float) -> dict[str, float]:
+        """Margins beside a point; none where there is no design."""
         moved = at.variables.copy()
         moved[index] *= np.exp(step)
         try:
             return self.margins(moved)
         except DesignError:
-            return None
+            return {}
 
 
 def _lengths(design: Design) -> dict[str, float]:

@@ -17,7 +17,7 @@ import numpy as np
 from bellows_design.design.design import Design
 from bellows_design.neighbours.distance import distance
 from bellows_design.study.optimize.goal import Goal
-from bellows_design.study.optimize.point import Point, Request, gradients
+from bellows_design.study.optimize.point import Point, Request, gap_slope, gradients
 from bellows_design.study.optimize.search.allowed import CLEARANCE, SEARCH_REACH, Allowed
 from bellows_design.study.optimize.search.linear_step import linear_step
 from bellows_design.study.optimize.space.variables import Variables
@@ -81,7 +81,8 @@ class Descent:
             if anchor is None:
                 return
             best = min(best, self._merit(anchor))
-            if settled or (number > 1 and best > self.bar + HOPELESS):
+            last = settled or number == MOST_ROUNDS - 1
+            if last or (number > 1 and best > self.bar + HOPELESS):
                 return
             end = yield from self._round(anchor, gap)
             gained = self._merit(anchor) - self._merit(end)
@@ -105,7 +106,7 @@ class Descent:
             if point is None or point.ordinary:
                 steps.radius /= 2
                 continue
-            gap.learn(at, point, gradients(at, self.variables, self.goal)["gap"])
+            gap.learn(at, point, self.variables)
             gain = self._merit(at) - self._merit(point)
             steps.taken(gain)
             at = point if gain > 0 else at
@@ -144,11 +145,11 @@ class GapSlope:
     def __init__(self, size: int) -> None:
         self.correction = np.zeros(size)
 
-    def learn(self, before: Point, after: Point, slope: Reals) -> None:
+    def learn(self, before: Point, after: Point, variables: Variables) -> None:
         """Correct the slope so that it explains the change of the gap from one point to another."""
         step = np.log(after.variables / before.variables)
         if "gap" in before.values and "gap" in after.values and step.any():
-            explained = float((slope + self.correction) @ step)
+            explained = float((gap_slope(before, variables) + self.correction) @ step)
             change = after.values["gap"] - before.values["gap"]
             self.correction += (change - explained) * step / float(step @ step)
 

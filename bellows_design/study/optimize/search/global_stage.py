@@ -23,10 +23,7 @@ if TYPE_CHECKING:
     from optuna.trial import Trial
 
 MOST_REDRAWS = 50
-"""Suggestions that exist in no choice are told to be bad, and cost no evaluation."""
-
-IMPOSSIBLE = 10.0
-"""Merit of a design that cannot exist or be evaluated: worse than any other's by logarithms."""
+"""Suggestions for each design that exists, at most; the others cost no evaluation."""
 
 
 def require_optuna() -> None:
@@ -62,6 +59,8 @@ class GlobalStage:
 
     def suggestions(self, number: int) -> list[Suggestion]:
         """So many designs that exist, or fewer where none are found."""
+        from optuna.trial import TrialState
+
         found: list[Suggestion] = []
         for _ in range(MOST_REDRAWS * number):
             if len(found) == number:
@@ -69,14 +68,19 @@ class GlobalStage:
             trial = self._study.ask()
             suggestion = self._suggestion(trial)
             if suggestion is None:
-                self._study.tell(trial, IMPOSSIBLE)
+                self._study.tell(trial, state=TrialState.FAIL)
             else:
                 found.append(suggestion)
         return found
 
     def tell(self, suggestion: Suggestion, merit: float | None) -> None:
         """What became of it; None if its evaluation failed."""
-        self._study.tell(suggestion.trial, IMPOSSIBLE if merit is None else merit)
+        from optuna.trial import TrialState
+
+        if merit is None:
+            self._study.tell(suggestion.trial, state=TrialState.FAIL)
+        else:
+            self._study.tell(suggestion.trial, merit)
 
     def _suggestion(self, trial: Trial) -> Suggestion | None:
         counts = {

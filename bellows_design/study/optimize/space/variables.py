@@ -32,6 +32,9 @@ LEAST_ROUND, MOST_ROUND = 0.2, 0.92
 INDENT_FILLET = 0.75
 """Fillet of an indent, as a fraction of its depth."""
 
+MOST_BUBBLES = 100
+"""That a design may have."""
+
 SMALLEST_SHARE = 0.5
 """Of the room across that a bubble takes at least."""
 
@@ -75,6 +78,15 @@ class Variables:
     def upper(self) -> Reals:
         """Largest values."""
         return np.array([self._ranges[name][1] for name in self.names])
+
+    @property
+    def possible(self) -> bool:
+        """Whether there is room for the least values."""
+        return bool(
+            np.all(self.lower <= self.upper)
+            and self.tendon_wall <= self.base.bellows.offset + 1e-9
+            and self.choice.bubbles <= MOST_BUBBLES
+        )
 
     @cached_property
     def _ranges(self) -> dict[str, tuple[float, float]]:
@@ -125,7 +137,7 @@ class Variables:
         """The values with lengths of whole micrometres, those along the actuator rounded down."""
         found = dict(zip(self.names, values, strict=True))
         for name in self.names:
-            down = name in ("chamber_length", "bubble_distance")
+            down = name in ("chamber_length", "bubble_distance", "indent.width")
             if name != "inner_round":
                 found[name] = _floor(found[name]) if down else round(float(found[name]), 3)
         if "inner_round" in found:
@@ -146,7 +158,8 @@ class Variables:
             values -= (values - self.lower) * (self.train_gradient > 0) * share
         if self.choice.indent_layers:
             place = self.names.index("indent.width")
-            values[place] = min(values[place], values[0] + 2 * self.bubble_wall)
+            chamber = values[self.names.index("chamber_length")]
+            values[place] = min(values[place], chamber + 2 * self.bubble_wall)
         return values
 
     def train_excess(self, values: Reals) -> float:

@@ -17,7 +17,7 @@ from bellows_design.batch.question import Question
 from bellows_design.batch.results import opened
 from bellows_design.design.shipped import load_design
 from bellows_design.design.topology import same_topology
-from bellows_design.errors import DesignError
+from bellows_design.errors import ClusterError, DesignError
 from bellows_design.neighbours.distance import distance
 from bellows_design.study.optimize.coordinator import Coordinator
 from bellows_design.study.optimize.goal import MARGIN, Goal
@@ -124,11 +124,7 @@ def test_the_best_of_a_descent_was_evaluated_by_itself_and_keeps_the_limits(resu
 
 
 @pytest.mark.parametrize("quantity", ["stress", "volume", "material"])
-def test_other_goals_come_to_the_angle_that_is_asked_for(results, quantity, monkeypatch):
-    monkeypatch.setattr(
-        "bellows_design.study.optimize.point.material_volume",
-        lambda design: 100.0 * design.bellows.bubble_width * design.bellows.tendon_height,
-    )
+def test_other_goals_come_to_the_angle_that_is_asked_for(results, quantity):
     goal = Goal(quantity, 4.0, least_angle_deg=420.0)
     at = descended(results, Lanes(), goal)
     first, best = at.points[0], at.best()
@@ -149,6 +145,49 @@ def test_a_resumed_search_asks_nothing_that_it_knows(results):
     assert again.asked == []
     assert after.known == before.asked + before.known
     assert after.best().design == before.best().design
+
+
+def test_a_search_that_is_cut_short_goes_the_same_way_when_it_is_resumed(tmp_path):
+    def searched(name: str, lanes: Lanes) -> Coordinator | None:
+        study = study_of(Optimization(FINGER, GOAL))
+        with opened(tmp_path / name, study) as results:
+            at = coordinated(results, lanes)
+            choices = [Choice(count, 3, 3, 4) for count in (8, 9)]
+            searches = [Variables(FINGER, choice) for choice in choices]
+            try:
+                at.lead(Descent(v, GOAL, v.values(FINGER)).search() for v in searches)
+            except KeyboardInterrupt:
+                return None
+            return at
+
+    whole = searched("whole", Lanes(2))
+    for most in (3, 9):
+        count = iter(range(10**6))
+
+        def interrupted(question, count=count, most=most):
+            if next(count) >= most:
+                raise KeyboardInterrupt
+            return answered(question)
+
+        assert searched(f"{most}", Lanes(2, interrupted)) is None
+        rest = searched(f"{most}", Lanes(1))
+        assert rest.best().design == whole.best().design
+        assert {p.answer.key for p in rest.points} == {p.answer.key for p in whole.points}
+        assert rest.asked < whole.asked
+
+
+def test_what_is_answered_is_kept_though_another_worker_fails(results):
+    def one_fails(question):
+        if question.design.bellows.bubble_count == 8:
+            time.sleep(0.05)
+            raise ClusterError("the scheduler is gone.")
+        return answered(question)
+
+    at = coordinated(results, Lanes(2, one_fails))
+    variables = [Variables(FINGER, Choice(count, 3, 3, 4)) for count in (8, 9)]
+    with pytest.raises(ClusterError):
+        at.lead(Descent(v, GOAL, v.values(FINGER)).search() for v in variables)
+    assert results.statuses() != {}
 
 
 def test_searches_come_to_the_same_end_on_one_lane_and_on_three(tmp_path):
@@ -190,8 +229,6 @@ def test_nothing_is_asked_once_the_time_is_over(results):
 
 
 def test_a_worker_that_is_gone_ends_the_search_with_its_reason(results):
-    from bellows_design.errors import ClusterError
-
     def gone(question):
         raise ClusterError("the scheduler is gone.")
 
