@@ -9,7 +9,7 @@ from __future__ import annotations
 import asyncio
 import threading
 from collections.abc import AsyncIterator, Callable
-from concurrent.futures import Future
+from concurrent.futures import Future, InvalidStateError
 from contextlib import asynccontextmanager, suppress
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
@@ -124,21 +124,22 @@ class Cluster:
         with self._lock:
             if self._ended is None:
                 self._ended = error
-                self._loop.call_soon_threadsafe(self._over.set)
+                with suppress(RuntimeError):  # its loop is closed
+                    self._loop.call_soon_threadsafe(self._over.set)
             pending, self._pending = self._pending, set()
         for asked in pending:
-            if not asked.answer.done():
+            with suppress(InvalidStateError):  # it was answered just now
                 asked.answer.set_exception(self._ended)
 
     def _run(self) -> None:
         """The thread of the event loop."""
         try:
             asyncio.run(self._work())
-        except Exception as error:
-            if not self._begun.done():
-                self._begun.set_exception(error)
-            elif self._ended is None:
+        except BaseException as error:  # of a thread: whoever waits hears of it, nobody else
+            if self._begun.done():
                 self._end(_faulty(error))
+            else:
+                self._begun.set_exception(error)
 
     async def _work(self) -> None:
         from bellows_design.batch.workers import Answering
@@ -153,12 +154,14 @@ class Cluster:
             self._begun.set_result(None)
             try:
                 await self._watch(client, plugin)
-            except ClusterError as error:
-                self._end(error)
-            for task in self._serving:
-                task.cancel()
-            if client.status == "running":
-                await client.unregister_worker_plugin(plugin.name)
+            except BaseException as error:  # told while the loop lives
+                self._end(_faulty(error))
+                raise
+            finally:
+                for task in self._serving:
+                    task.cancel()
+                if client.status == "running":
+                    await client.unregister_worker_plugin(plugin.name)
 
     async def _meet_workers(self, client: Any, plugin: Answering) -> None:
         """Wait for the workers. Raises ``ClusterError`` if none comes, or one is none of ours."""
@@ -222,8 +225,9 @@ class Cluster:
                         await self._ask(client, plugin, address, asked)
                 with self._lock:
                     self._pending.discard(asked)
-        except Exception as error:
-            self._end(_faulty(error))
+        except (Exception, asyncio.CancelledError) as error:
+            self._end(_faulty(error))  # says nothing new where the end cancelled it
+            raise
 
     @asynccontextmanager
     async def _worker_of(self, lane: _Lane) -> AsyncIterator[str]:
@@ -303,8 +307,9 @@ async def _addresses(client: Any) -> set[str]:
     raise ClusterError(f"the scheduler is gone; {RESUME}.")
 
 
-def _faulty(error: Exception) -> BellowsError:
+def _faulty(error: BaseException) -> BellowsError:
     """The sentence for what went wrong in dask, or in a worker outside of an evaluation."""
     if isinstance(error, BellowsError):
         return error
-    return ClusterError(f"a worker cannot answer, {type(error).__name__}: {error}; {RESUME}.")
+    what = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
+    return ClusterError(f"a worker cannot answer, {what}; {RESUME}.")
