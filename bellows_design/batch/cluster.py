@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import asyncio
 import threading
-from collections.abc import AsyncIterator, Callable
+from collections.abc import AsyncIterator, Awaitable, Callable
 from concurrent.futures import Future, InvalidStateError
 from contextlib import asynccontextmanager, suppress
 from dataclasses import dataclass, field
@@ -139,7 +139,7 @@ class Cluster:
             if self._begun.done():
                 self._end(_faulty(error))
             else:
-                self._begun.set_exception(error)
+                self._begun.set_exception(_faulty(error))
 
     async def _work(self) -> None:
         from bellows_design.batch.workers import Answering
@@ -149,7 +149,7 @@ class Cluster:
         self._changed = asyncio.Condition()
         async with self._place.connected() as client:
             plugin = Answering(self._make)
-            await client.register_plugin(plugin)
+            await _in_time(client.register_plugin(plugin))
             await self._meet_workers(client, plugin)
             self._begun.set_result(None)
             try:
@@ -165,8 +165,6 @@ class Cluster:
 
     async def _meet_workers(self, client: Any, plugin: Answering) -> None:
         """Wait for the workers. Raises ``ClusterError`` if none comes, or one is none of ours."""
-        from bellows_design.batch.workers import installed_version
-
         waited = 0.0
         while len(self._lanes) < (1 if waited > OTHERS_SECONDS else self._place.workers):
             await self._look(client, plugin)
@@ -174,13 +172,7 @@ class Cluster:
                 raise ClusterError(f"no worker came within {WORKER_SECONDS:g} s.")
             await asyncio.sleep(POLL_SECONDS)
             waited += POLL_SECONDS
-        own = installed_version()
-        for address, version in (await client.run(installed_version)).items():
-            if version != own:
-                raise ClusterError(
-                    f"the worker at {address} has version {version} of bellows-design, this "
-                    f"process {own}; they must be the same."
-                )
+        await _require_own_version(client)
 
     async def _watch(self, client: Any, plugin: Answering) -> None:
         """Keep up with the workers until the end. Raises ``ClusterError`` if all stay away."""
@@ -295,6 +287,34 @@ async def _result(task: Any) -> Answer:
     except CancelledError as error:
         raise ClusterError(f"the scheduler dropped a question; {RESUME}.") from error
     return found
+
+
+async def _require_own_version(client: Any) -> None:
+    """Raise ``ClusterError`` for a worker that has another version of this program."""
+    from bellows_design.batch.workers import installed_version
+
+    own = installed_version()
+    found = await _in_time(client.run(installed_version, on_error="return"))
+    for address, version in found.items():
+        if isinstance(version, OSError):  # it is gone; the next one registers anew
+            continue
+        if isinstance(version, Exception):
+            raise version
+        if version != own:
+            raise ClusterError(
+                f"the worker at {address} has version {version} of bellows-design, this "
+                f"process {own}; they must be the same."
+            )
+
+
+async def _in_time(work: Awaitable[Any]) -> Any:
+    """What the scheduler says. Raises ``ClusterError`` if it does not answer."""
+    try:
+        return await asyncio.wait_for(work, SILENCE_SECONDS)
+    except TimeoutError as error:
+        raise ClusterError(
+            f"the scheduler or a worker did not answer within {SILENCE_SECONDS:g} s; {RESUME}."
+        ) from error
 
 
 async def _addresses(client: Any) -> set[str]:

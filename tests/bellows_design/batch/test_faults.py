@@ -95,3 +95,32 @@ def test_a_fault_of_the_end_keeps_nobody_waiting():
         waiting = cluster.submit(FINGER, 0)
     with pytest.raises(ClusterError, match="ended"):
         waiting.result(5)
+
+
+@pytest.mark.parametrize("fault", FAULTS[:2], ids=repr)
+@pytest.mark.parametrize("place", ["register", "look", "run"])
+def test_a_fault_before_the_first_question_is_a_sentence(place, fault):
+    with pytest.raises(ClusterError, match=f"cannot answer, {type(fault).__name__}"):
+        Cluster(object, Client(**{place: fault}))
+
+
+def test_a_worker_without_this_program_is_told_of():
+    client = Client()
+    client.versions[WORKERS[1]] = ModuleNotFoundError("No module named 'bellows_design'")
+    with pytest.raises(ClusterError, match="No module named"):
+        Cluster(object, client)
+
+
+def test_a_worker_that_is_gone_has_no_version():
+    client = Client()
+    client.versions[WORKERS[1]] = OSError("closed")
+    Cluster(object, client).close()
+
+
+def test_a_scheduler_that_is_silent_at_the_beginning_is_told_of(monkeypatch):
+    monkeypatch.setattr("bellows_design.batch.cluster.SILENCE_SECONDS", 0.05)
+    for name in ("register_plugin", "run"):
+        client = Client()
+        setattr(client, name, lambda *_, **__: never())
+        with pytest.raises(ClusterError, match=r"did not answer within 0\.05 s"):
+            Cluster(object, client)
