@@ -42,7 +42,7 @@ class Session:
         self._no_starts: set[Anchor] = set()  # that no neighbour can start from
 
     def begin(self, found: Evaluation) -> None:
-        """Take an ordinary evaluation of the usual accuracy that is at hand for a start of others."""
+        """Take an ordinary evaluation that is at hand, for a start of others."""
         _keep(self._fresh, (found.design.digest, None), found)
 
     def answer(self, question: Question) -> Answer:
