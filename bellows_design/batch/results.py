@@ -99,7 +99,7 @@ class Results:
             yield row_of(values, self._base)
 
     def answers(self) -> Iterator[Answer]:
-        """The same without their designs, which take most of the time to read."""
+        """The same without their designs, each of which would be validated."""
         for values in self._connection.execute("SELECT * FROM answer ORDER BY position, key"):
             yield answer_in(values)
 
