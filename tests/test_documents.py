@@ -171,6 +171,10 @@ def test_every_command_and_every_option_is_documented() -> None:
     assert "evaluate" in commands and "--accuracy" in options
     assert not [name for name in commands if f"\n## `bellows {name}" not in page]
     assert not undocumented(options, "commands.md")
+    lowercase = r"[a-z]+(?: [a-z]+)*"
+    headings = re.findall(rf"^## `bellows ({lowercase})", page, re.MULTILINE)
+    groups = {name.split()[0] for name in commands}
+    assert not [name for name in headings if name not in commands and name not in groups]
 
 
 def test_the_design_on_the_page_is_one() -> None:

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import asyncio
 import threading
-from collections.abc import AsyncIterator, Callable
-from concurrent.futures import Future
+from collections.abc import AsyncIterator, Awaitable, Callable
+from concurrent.futures import Future, InvalidStateError
 from contextlib import asynccontextmanager, suppress
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
@@ -124,21 +124,22 @@ class Cluster:
         with self._lock:
             if self._ended is None:
                 self._ended = error
-                self._loop.call_soon_threadsafe(self._over.set)
+                with suppress(RuntimeError):  # its loop is closed
+                    self._loop.call_soon_threadsafe(self._over.set)
             pending, self._pending = self._pending, set()
         for asked in pending:
-            if not asked.answer.done():
+            with suppress(InvalidStateError):  # it was answered just now
                 asked.answer.set_exception(self._ended)
 
     def _run(self) -> None:
         """The thread of the event loop."""
         try:
             asyncio.run(self._work())
-        except Exception as error:
-            if not self._begun.done():
-                self._begun.set_exception(error)
-            elif self._ended is None:
+        except BaseException as error:  # of a thread: whoever waits hears of it, nobody else
+            if self._begun.done():
                 self._end(_faulty(error))
+            else:
+                self._begun.set_exception(_faulty(error))
 
     async def _work(self) -> None:
         from bellows_design.batch.workers import Answering
@@ -148,22 +149,22 @@ class Cluster:
         self._changed = asyncio.Condition()
         async with self._place.connected() as client:
             plugin = Answering(self._make)
-            await client.register_plugin(plugin)
+            await _in_time(client.register_plugin(plugin))
             await self._meet_workers(client, plugin)
             self._begun.set_result(None)
             try:
                 await self._watch(client, plugin)
-            except ClusterError as error:
-                self._end(error)
-            for task in self._serving:
-                task.cancel()
-            if client.status == "running":
-                await client.unregister_worker_plugin(plugin.name)
+            except BaseException as error:  # told while the loop lives
+                self._end(_faulty(error))
+                raise
+            finally:
+                for task in self._serving:
+                    task.cancel()
+                if client.status == "running":
+                    await client.unregister_worker_plugin(plugin.name)
 
     async def _meet_workers(self, client: Any, plugin: Answering) -> None:
         """Wait for the workers. Raises ``ClusterError`` if none comes, or one is none of ours."""
-        from bellows_design.batch.workers import installed_version
-
         waited = 0.0
         while len(self._lanes) < (1 if waited > OTHERS_SECONDS else self._place.workers):
             await self._look(client, plugin)
@@ -171,13 +172,7 @@ class Cluster:
                 raise ClusterError(f"no worker came within {WORKER_SECONDS:g} s.")
             await asyncio.sleep(POLL_SECONDS)
             waited += POLL_SECONDS
-        own = installed_version()
-        for address, version in (await client.run(installed_version)).items():
-            if version != own:
-                raise ClusterError(
-                    f"the worker at {address} has version {version} of bellows-design, this "
-                    f"process {own}; they must be the same."
-                )
+        await _require_own_version(client)
 
     async def _watch(self, client: Any, plugin: Answering) -> None:
         """Keep up with the workers until the end. Raises ``ClusterError`` if all stay away."""
@@ -222,8 +217,9 @@ class Cluster:
                         await self._ask(client, plugin, address, asked)
                 with self._lock:
                     self._pending.discard(asked)
-        except Exception as error:
-            self._end(_faulty(error))
+        except (Exception, asyncio.CancelledError) as error:
+            self._end(_faulty(error))  # says nothing new where the end cancelled it
+            raise
 
     @asynccontextmanager
     async def _worker_of(self, lane: _Lane) -> AsyncIterator[str]:
@@ -293,6 +289,34 @@ async def _result(task: Any) -> Answer:
     return found
 
 
+async def _require_own_version(client: Any) -> None:
+    """Raise ``ClusterError`` for a worker that has another version of this program."""
+    from bellows_design.batch.workers import installed_version
+
+    own = installed_version()
+    found = await _in_time(client.run(installed_version, on_error="return"))
+    for address, version in found.items():
+        if isinstance(version, OSError):  # it is gone; the next one registers anew
+            continue
+        if isinstance(version, Exception):
+            raise version
+        if version != own:
+            raise ClusterError(
+                f"the worker at {address} has version {version} of bellows-design, this "
+                f"process {own}; they must be the same."
+            )
+
+
+async def _in_time(work: Awaitable[Any]) -> Any:
+    """What the scheduler says. Raises ``ClusterError`` if it does not answer."""
+    try:
+        return await asyncio.wait_for(work, SILENCE_SECONDS)
+    except TimeoutError as error:
+        raise ClusterError(
+            f"the scheduler or a worker did not answer within {SILENCE_SECONDS:g} s; {RESUME}."
+        ) from error
+
+
 async def _addresses(client: Any) -> set[str]:
     """Of the workers that are alive. Raises ``ClusterError`` if the scheduler does not answer."""
     try:
@@ -303,8 +327,9 @@ async def _addresses(client: Any) -> set[str]:
     raise ClusterError(f"the scheduler is gone; {RESUME}.")
 
 
-def _faulty(error: Exception) -> BellowsError:
+def _faulty(error: BaseException) -> BellowsError:
     """The sentence for what went wrong in dask, or in a worker outside of an evaluation."""
     if isinstance(error, BellowsError):
         return error
-    return ClusterError(f"a worker cannot answer, {type(error).__name__}: {error}; {RESUME}.")
+    what = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
+    return ClusterError(f"a worker cannot answer, {what}; {RESUME}.")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from concurrent.futures import Future
-from itertools import pairwise, takewhile
+from itertools import pairwise
 from queue import SimpleQueue
 from typing import TypeVar
 
@@ -71,11 +71,11 @@ def answers(questions: Sequence[Question], executor: Executor) -> Iterator[Came]
         asked -= len(found)
         asked += sum(ask(lane) for lane, _, _ in found)
         asked += sum(ask(lane) for _ in range(AHEAD) for lane in new)
-        good = list(takewhile(lambda each: each[2].exception() is None, found))
-        if good:
+        faults = [future.exception() for _, _, future in found]
+        if good := [each for each, fault in zip(found, faults, strict=True) if fault is None]:
             yield [(place, future.result()) for _, place, future in good]
-        for _, _, future in found[len(good) :]:
-            future.result()
+        for fault in filter(None, faults):
+            raise fault
 
 
 Item = TypeVar("Item")

@@ -7,8 +7,8 @@ import logging
 import math
 import os
 import socket
-from collections.abc import AsyncIterator, Coroutine, Iterable
-from contextlib import asynccontextmanager, suppress
+from collections.abc import AsyncIterator, Coroutine, Iterable, Iterator
+from contextlib import asynccontextmanager, contextmanager, suppress
 from dataclasses import dataclass
 from importlib import import_module
 from importlib.util import find_spec
@@ -92,7 +92,10 @@ class ThisMachine:
         from bellows_design.batch.workers import ENVIRONMENT
 
         distributed = _distributed()
-        with dask.config.set({"distributed.nanny.pre-spawn-environ": ENVIRONMENT}):
+        with (
+            _environment_restored((*ENVIRONMENT, "PYTHONHASHSEED")),
+            dask.config.set({"distributed.nanny.pre-spawn-environ": ENVIRONMENT}),
+        ):
             async with (
                 distributed.Scheduler(
                     host=LOOPBACK, port=0, dashboard=False, dashboard_address=f"{LOOPBACK}:0"
@@ -115,18 +118,21 @@ class Elsewhere:
 
         Raises ``DesignError`` for what is no address, ``ClusterError`` where nothing listens.
         """
-        address = urlsplit(self.scheduler if "://" in self.scheduler else f"//{self.scheduler}")
+        no_address = DesignError(
+            f"--scheduler is {quoted(self.scheduler)} but must be an address such as "
+            "tcp://host:8786."
+        )
         try:
+            address = urlsplit(self.scheduler if "://" in self.scheduler else f"//{self.scheduler}")
             host, port = address.hostname, address.port
         except ValueError:
-            host, port = None, None
+            raise no_address from None
         if not host or not port or address.scheme not in ("", "tcp", "tls"):
-            raise DesignError(
-                f"--scheduler is {quoted(self.scheduler)} but must be an address such as "
-                "tcp://host:8786."
-            )
+            raise no_address
         try:
             socket.create_connection((host, port), LISTEN_SECONDS).close()
+        except ValueError:  # no name that a host can have, as one with an empty part
+            raise no_address from None
         except OSError as error:
             raise ClusterError(
                 f"no scheduler listens at {quoted(self.scheduler)}: {error.strerror or error}."
@@ -135,21 +141,51 @@ class Elsewhere:
     @asynccontextmanager
     async def connected(self) -> AsyncIterator[Any]:
         """A client of that scheduler. Raises ``ClusterError`` if none answers."""
-        client = _distributed().Client(self.scheduler, asynchronous=True, timeout=CONNECT_SECONDS)
-        try:  # its own time does not count where something else listens there and says nothing
-            await asyncio.wait_for(_ready(client), CONNECT_SECONDS)
+        with self._refusals():
+            client = _distributed().Client(
+                self.scheduler, asynchronous=True, timeout=CONNECT_SECONDS
+            )
+            try:  # its own time does not count where something else listens and says nothing
+                await asyncio.wait_for(_ready(client), CONNECT_SECONDS)
+            except Exception:
+                with suppress(Exception):
+                    await asyncio.wait_for(client.close(), LOOK_SECONDS)
+                raise
+        async with client:
+            yield client
+
+    @contextmanager
+    def _refusals(self) -> Iterator[None]:
+        """Within the block what dask raises becomes ``ClusterError``."""
+        try:
+            yield
         except (OSError, ValueError, TimeoutError) as error:
-            with suppress(Exception):
-                await asyncio.wait_for(client.close(), LOOK_SECONDS)
             raise ClusterError(
                 f"no scheduler answers at {quoted(self.scheduler)} within {CONNECT_SECONDS:g} s."
             ) from error
-        async with client:
-            yield client
+        except (TypeError, RuntimeError) as error:  # without certificates, or with unusable ones
+            reason = " ".join(str(error).split()).rstrip(".")
+            raise ClusterError(
+                f"the scheduler at {quoted(self.scheduler)} cannot be connected to: {reason}."
+            ) from error
 
 
 async def _ready(client: Any) -> None:
     await client
+
+
+@contextmanager
+def _environment_restored(names: Iterable[str]) -> Iterator[None]:
+    """After the block these are as before: dask sets them here too, whenever it starts a worker."""
+    before = {name: os.environ.get(name) for name in names}
+    try:
+        yield
+    finally:
+        for name, value in before.items():
+            if value is None:
+                os.environ.pop(name, None)
+            else:
+                os.environ[name] = value
 
 
 async def _worker(scheduler: str) -> None:

@@ -16,12 +16,14 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
+from bellows_design.batch.answer import Answer
 from bellows_design.batch.schema import (
     APPLICATION,
     KEEP,
     TABLES,
     VERSION,
     Row,
+    answer_in,
     row_of,
     values_of,
 )
@@ -37,6 +39,9 @@ NESTED = ("varied", "design")
 
 WAIT_SECONDS = 60.0
 """s. So long a write waits for a reader that keeps the file busy."""
+
+END_SECONDS = 1.0
+"""s. So long the end of a study waits for one: nothing depends on it."""
 
 
 @dataclass(frozen=True)
@@ -93,6 +98,11 @@ class Results:
         for values in self._connection.execute("SELECT * FROM answer ORDER BY position, key"):
             yield row_of(values, self._base)
 
+    def answers(self) -> Iterator[Answer]:
+        """The same without their designs, each of which would be validated."""
+        for values in self._connection.execute("SELECT * FROM answer ORDER BY position, key"):
+            yield answer_in(values)
+
     def row(self, key: str) -> Row | None:
         """The answer to one question; None if there is none yet."""
         found = self._connection.execute("SELECT * FROM answer WHERE key = ?", (key,)).fetchone()
@@ -118,7 +128,8 @@ class Results:
 def opened(path: Path, study: Study) -> Iterator[Results]:
     """The results of a study, to be continued; begun where there is no file. One process at once.
 
-    After the block all of it is in this one file.
+    After the block all of it is in this one file, unless another process reads it just then: what
+    is in the file ``-wal`` beside it then is as safe, and joins it with the next use.
 
     Raises:
         DesignError: The file is damaged, none of this program, or another study's; or another
@@ -131,6 +142,7 @@ def opened(path: Path, study: Study) -> Iterator[Results]:
         results = Results(path, connection)
         _require_same(path, results.study, study)
         yield results
+        connection.execute(f"PRAGMA busy_timeout = {1000 * END_SECONDS:.0f}")
         connection.execute("PRAGMA wal_checkpoint(TRUNCATE)")
 
 

@@ -101,12 +101,17 @@ def values_of(row: Row, base: Mapping[str, Any]) -> dict[str, Any]:
 
 def row_of(values: Mapping[str, Any], base: Mapping[str, Any]) -> Row:
     """The row that :func:`values_of` gave. Raises ``DesignError`` where its design is none now."""
+    differing = _from_json(values["design"])
+    design = None if differing is None else Design.of({**base, **differing})
+    return Row(answer_in(values), design, json.loads(values["varied"]), values["position"])
+
+
+def answer_in(values: Mapping[str, Any]) -> Answer:
+    """The answer of a row, whatever its design is."""
     answer = {field.name: values[field.name] for field in fields(Answer)}
     answer |= {name: _from_json(answer[name]) for name in AS_JSON}
     answer["warnings"] = tuple(answer["warnings"])
-    differing = _from_json(values["design"])
-    design = None if differing is None else Design.of({**base, **differing})
-    return Row(Answer(**answer), design, json.loads(values["varied"]), values["position"])
+    return Answer(**answer)
 
 
 def _differing(table: Mapping[str, Any], base: Mapping[str, Any]) -> dict[str, Any]:

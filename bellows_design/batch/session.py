@@ -39,20 +39,21 @@ class Session:
         self._pool = Pool(model, most=MOST_NEIGHBOURHOODS)
         self._fresh: dict[Anchor, Evaluation] = {}  # that nothing was started from yet
         self._around: dict[Anchor, Neighbourhood] = {}
+        self._no_starts: set[Anchor] = set()  # that no neighbour can start from
 
     def begin(self, found: Evaluation) -> None:
-        """Take an ordinary evaluation that is at hand for a start of others."""
-        self._pool.add(found)
+        """Take an ordinary evaluation that is at hand, for a start of others."""
+        _keep(self._fresh, (found.design.digest, None), found)
 
     def answer(self, question: Question) -> Answer:
         """The answer to a question; a design that cannot be evaluated is an answer too."""
-        from solver.errors import SolverError
+        from solver.errors import MeshingError, SolverError
 
         began = time.perf_counter()
         try:
             found = self._found(question)
             derivatives = _derivatives(found) if question.derivatives else None
-        except (BellowsError, SolverError) as error:
+        except (BellowsError, SolverError, MeshingError) as error:
             return failed(question, str(error), time.perf_counter() - began)
         except Exception as error:  # a fault of ours with one design does not end a study of many
             reason = f"internal error, {type(error).__name__}: {error}"
@@ -92,12 +93,15 @@ class Session:
         from bellows_design.neighbours.neighbourhood import Neighbourhood
 
         start = design.digest, question.accuracy_percent
+        if start in self._no_starts:
+            return None
         around = self._around.get(start)
         if around is None:
             anchor = self._fresh.get(start) or self._ordinary(design, question)
-            del self._fresh[start]
             if unusable(anchor):
+                self._no_starts.add(start)
                 return None
+            del self._fresh[start]
             around = Neighbourhood(anchor)
         _keep(self._around, start, around)
         return around

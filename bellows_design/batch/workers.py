@@ -55,9 +55,10 @@ class Answering(WorkerPlugin):
     def answer(self, question: Question) -> Answer:
         """In the worker, by one of its threads at once."""
         with self._lock:
-            if self._answerer is None:
-                self._answerer = self._make()
-            return self._answerer.answer(question)
+            answerer = self._answerer  # another study's setup may put None there at any moment
+            if answerer is None:
+                answerer = self._answerer = self._make()
+            return answerer.answer(question)
 
 
 def answer(question: Question, plugin: str) -> Answer:

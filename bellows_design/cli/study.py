@@ -136,6 +136,7 @@ def sweep(
     )
 
 
+@study.command()
 def indent(
     name: DesignName = "prototype_2",
     points: Annotated[

@@ -26,6 +26,7 @@ __all__ = [
     "led_along",
     "parameters",
     "same_topology",
+    "settable",
     "varied",
 ]
 
@@ -63,6 +64,11 @@ def led_along(design: Design) -> dict[str, tuple[str, ...]]:
     return {fillet: _leaders(limits) for fillet, limits in _full_rounds(design)}
 
 
+def settable(design: Design) -> tuple[str, ...]:
+    """What :func:`varied` takes: parameters, and fillets that are none for being 0 or full."""
+    return tuple(_lengths(design) | parameters(design))
+
+
 def varied(design: Design, changes: Mapping[str, float]) -> Design:
     """``design`` with other values of some parameters; fillets that are full rounds follow.
 
@@ -74,10 +80,10 @@ def varied(design: Design, changes: Mapping[str, float]) -> Design:
     Raises:
         DesignError: An unknown name, or values that describe no design.
     """
-    known = _lengths(design) | parameters(design)
+    known = settable(design)
     for name in changes:
         if name not in known:
-            raise DesignError(f"unknown parameter {quoted(name)}{did_you_mean(name, tuple(known))}")
+            raise DesignError(f"unknown parameter {quoted(name)}{did_you_mean(name, known)}")
     table = design.model_dump()
     for name, value in changes.items():
         _put(table, name, float(value))

@@ -22,7 +22,7 @@ MOST_REASONS = 5
 
 def sweep_tables(plan: Plan, results: Results, outcome: Outcome) -> Sequence[RenderableType]:
     """Counts and speed, the ranges of angle and stress, and why designs failed."""
-    answers = [row.answer for row in results.rows()]
+    answers = list(results.answers())
     table = Table(box=SIMPLE, show_header=False)
     for name, value in _counts(outcome, answers):
         table.add_row(name, Text(value))

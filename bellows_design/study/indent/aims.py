@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from bellows_design.study.changes import Changes, change
+from bellows_design.study.indent.kinds import SHALLOWEST
 from bellows_design.study.paper import TABLE_4
 
 if TYPE_CHECKING:
@@ -76,12 +78,19 @@ def deepest_printed(design: Design, outside: bool) -> float:
     return wall - printer.minimum_solid_layers * printer.layer_height
 
 
-def of_whole_layers(design: Design, indent: Indent) -> Indent:
-    """The same with the nearest depth of whole layers that leaves enough of them."""
+def of_whole_layers(design: Design, indent: Indent) -> Indent | None:
+    """The same with the nearest depth of whole layers that leaves enough of them.
+
+    None if there is no such depth, or its arc would be deeper than half of its width.
+    """
     layer = design.profile().layer_height
-    most = deepest_printed(design, indent.side == "outside")
-    layers = max(1, round(min(indent.depth, most) / layer))
-    depth = round(layers * layer, 9)
+    widest = indent.width / 2 if indent.shape == "arc" else math.inf
+    most = min(deepest_printed(design, indent.side == "outside"), widest)
+    fewest, greatest = math.ceil(SHALLOWEST / layer - 1e-9), math.floor(most / layer + 1e-9)
+    layers = min(max(fewest, round(indent.depth / layer)), greatest)
+    if layers < fewest:
+        return None
+    depth = min(round(layers * layer, 9), widest)
     rounded = indent.model_dump() | {"depth": depth}
     if indent.side == "outside" and indent.shape == "rectangular":
         rounded["fillet"] = min(indent.fillet, depth)

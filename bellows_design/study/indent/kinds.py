@@ -83,7 +83,6 @@ def spread(kind: Kind, bellows: BellowsParameters, number: int) -> Iterator[Inde
 
     if any(least > most for least, most in kind.bounds(bellows).values()):
         return iter(())
-
     places = Halton(d=3, scramble=False).random(number + 1)[1:]
     return (kind.indent(bellows, place) for place in places)
 

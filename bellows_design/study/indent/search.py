@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
 
-from bellows_design.errors import DesignError
+from bellows_design.errors import BellowsError, DesignError
 from bellows_design.study.changes import Changes
 from bellows_design.study.indent.aims import (
     LEAST_STRESS,
@@ -20,6 +20,7 @@ from bellows_design.study.indent.kinds import KINDS, Kind, kind_of, spread
 from bellows_design.study.indent.tester import Evaluate, Tester
 from bellows_design.study.indent.trial import Trial, front
 from bellows_design.study.indent.walk import Walk, walk_bounds
+from solver.errors import MeshingError, SolverError
 
 if TYPE_CHECKING:
     from bellows_design.analysis.evaluation import Evaluation
@@ -165,7 +166,10 @@ def _walked(tester: Tester, aim: Aim, start: Evaluation) -> Evaluation | None:
     kind = kind_of(indent)
     deepest = deepest_printed(start.design, kind.side == "outside") if aim.printable else 1e9
     bounds = walk_bounds(start.design, kind, deepest)
-    end = Walk(start, tester.plain, aim, tester.note).best(bounds)
+    try:
+        end = Walk(start, tester.plain, aim, tester.note).best(bounds)
+    except (BellowsError, MeshingError, SolverError):  # no neighbour can start there
+        return None
     if aim.printable:
         return _layered(tester, end)
     assert end.indent is not None
@@ -173,8 +177,10 @@ def _walked(tester: Tester, aim: Aim, start: Evaluation) -> Evaluation | None:
 
 
 def _layered(tester: Tester, design: Design) -> Evaluation | None:
+    """With its indent of whole layers; None if no such indent fits, or it is not solved."""
     assert design.indent is not None
-    return tester.tried(of_whole_layers(design, design.indent), "found")
+    indent = of_whole_layers(design, design.indent)
+    return None if indent is None else tester.tried(indent, "found")
 
 
 def _value(tester: Tester, aim: Aim, found: Evaluation) -> float:

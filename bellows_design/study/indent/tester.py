@@ -6,9 +6,10 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from bellows_design.errors import BellowsError, DesignError
+from bellows_design.neighbours.equilibrium import unusable
 from bellows_design.study.indent.kinds import with_indent
 from bellows_design.study.indent.trial import Trial
-from solver.errors import MeshingError
+from solver.errors import MeshingError, SolverError
 
 if TYPE_CHECKING:
     from bellows_design.analysis.evaluation import Evaluation
@@ -30,12 +31,15 @@ class Tester:
     """
 
     def __init__(self, design: Design, evaluate: Evaluate, tell: Callable[[Trial], None]) -> None:
-        """Every trial is told to ``tell``. Raises ``DesignError`` if the design is not solved."""
+        """Every trial is told to ``tell``.
+
+        Raises ``DesignError`` if the design is not solved, or its result is void.
+        """
         self._evaluate, self._tell = evaluate, tell
         self.design = with_indent(design, None)
         self.plain = evaluate(self.design)
-        if not self.plain.converged:
-            raise DesignError(f"{design.name} without indent: {self.plain.message}")
+        if reason := unusable(self.plain):
+            raise DesignError(f"{design.name} without indent: {reason}.")
         self.trials: list[Trial] = []
 
     def note(self, trial: Trial) -> None:
@@ -44,12 +48,12 @@ class Tester:
         self._tell(trial)
 
     def tried(self, indent: Indent, how: str) -> Evaluation | None:
-        """The design with an indent; None where there is none, or its pressure is not reached."""
+        """The design with an indent; None where there is none, or no result that holds."""
         try:
             found = self._evaluate(with_indent(self.design, indent))
-        except (BellowsError, MeshingError):
+        except (BellowsError, MeshingError, SolverError):
             return None
-        if not found.converged:
+        if unusable(found):
             return None
         self.note(self.trial(found, how))
         return found

@@ -67,8 +67,8 @@ def sobol_indices(
     problem = {"num_vars": len(names), "names": list(names), "bounds": [[-1, 1]] * len(names)}
     points = sampling.sample(problem, base_samples, calc_second_order=False, seed=seed)
     values = response(np.asarray(points))
-    found = analysis.analyze(
-        problem, values, calc_second_order=False, conf_level=CONFIDENCE, seed=seed
+    found = analysis.analyze(  # it would take a seed of 0 for none
+        problem, values, calc_second_order=False, conf_level=CONFIDENCE, seed=seed + 1
     )
     columns = (found[key].tolist() for key in ("S1", "S1_conf", "ST", "ST_conf"))
     rows = (Index(*row) for row in zip(names, *columns, strict=True))

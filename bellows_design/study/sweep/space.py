@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from bellows_design.design.design import Design
-from bellows_design.design.variation import led_along, parameters, varied
+from bellows_design.design.variation import settable, varied
 from bellows_design.errors import DesignError
 from bellows_design.validation.quoting import did_you_mean, quoted
 
@@ -18,6 +18,9 @@ FRACTIONS = tuple(f"{name}{PERCENT}" for name in ("inner_fillet", "outer_fillet"
 
 MOST_ALONG = 10_000
 """Values of one parameter in a grid."""
+
+MOST = 1e9
+"""Of any value, mm, MPa or %: far beyond every design, and its differences are finite."""
 
 FORM = "must have the form name=from:to, or name=from:to:number for a grid"
 
@@ -71,7 +74,7 @@ def design_at(base: Design, values: Mapping[str, float]) -> Design:
 
 def _axis(text: str, base: Design) -> Axis:
     name, equals, written = (part.strip() for part in text.partition("="))
-    known = (*parameters(base), *led_along(base), *FRACTIONS)
+    known = (*settable(base), *FRACTIONS)
     if not equals:
         raise DesignError(f"--vary {quoted(text)} {FORM}.")
     if name not in known:
@@ -94,6 +97,8 @@ def _number(text: str, part: str) -> float:
         value = math.nan
     if not math.isfinite(value):
         raise DesignError(f"--vary {quoted(text)}: {quoted(part)} is no finite number; it {FORM}.")
+    if abs(value) > MOST:
+        raise DesignError(f"--vary {quoted(text)}: {value:g} must lie within ±{MOST:g}.")
     return value
 
 

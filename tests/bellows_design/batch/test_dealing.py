@@ -94,6 +94,21 @@ def test_what_was_answered_comes_before_it_is_said_that_nobody_works_any_more():
     assert places == list(range(7))
 
 
+def test_what_comes_together_with_a_fault_is_not_lost():
+    class OneIsLost(Lanes):
+        """All answers come at once; one in their midst is a fault."""
+
+        def submit(self, question, lane):
+            self.lost_after = 0 if question == 18 else 10**9
+            return super().submit(question, lane)
+
+    came, places = answers(list(range(20)), OneIsLost(10)), []
+    with pytest.raises(ClusterError):
+        for together in came:
+            places += [place for place, _ in together]
+    assert sorted(places) == [*range(18), 19]
+
+
 def test_no_question_no_answer():
     assert list(answers([], Lanes(2))) == []
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 import csv
 import re
 import sqlite3
-from contextlib import closing
+import time
+from contextlib import ExitStack, closing
 from dataclasses import fields, replace
 from pathlib import Path
 
@@ -16,6 +17,7 @@ from bellows_design.batch.export import write_csv, write_parquet
 from bellows_design.batch.question import Question
 from bellows_design.batch.results import Study, opened, reading
 from bellows_design.batch.schema import COLUMNS, VERSION, Row
+from bellows_design.design.design import Design
 from bellows_design.design.shipped import load_design, shipped_designs
 from bellows_design.design.variation import varied
 from bellows_design.errors import DesignError
@@ -54,6 +56,14 @@ def test_a_row_comes_back_as_it_was(file):
         assert results.study.options == STUDY.options
 
 
+def test_answers_are_read_without_their_designs(file, monkeypatch):
+    rows = [Row(done(), NEAR), Row(replace(failed(QUESTION, "no"), key="x"), NEAR, {}, 1)]
+    with opened(file, STUDY) as results:
+        results.keep(*rows)
+        monkeypatch.setattr(Design, "of", lambda _: pytest.fail("a design is made"))
+        assert list(results.answers()) == [row.answer for row in rows]
+
+
 @pytest.mark.parametrize("name", shipped_designs())
 def test_every_shipped_design_comes_back_as_toml(file, name):
     design = varied(load_design(name), {"load.pressure": 0.04})
@@ -90,6 +100,25 @@ def test_a_reader_sees_answers_while_they_are_written_and_cannot_write(file):
             assert list(other.statuses()) == [QUESTION.key]
             with pytest.raises(CannotWrite):
                 other.keep(Row(done(), NEAR))
+
+
+def test_the_end_does_not_wait_for_a_reader_and_loses_nothing(file):
+    """A write waits a minute for one; the end would take as long without a bound of its own."""
+    with ExitStack() as readers:
+        with opened(file, STUDY) as results:
+            results.keep(Row(done(), NEAR))
+            reader = readers.enter_context(closing(sqlite3.connect(file, isolation_level=None)))
+            reader.execute("BEGIN")
+            reader.execute("SELECT * FROM answer").fetchall()
+            results.keep(Row(replace(done(), key="x"), NEAR))
+            waits = results._connection.execute("PRAGMA busy_timeout").fetchone()[0]
+            began = time.monotonic()
+        assert time.monotonic() - began < waits / 1000 / 4
+        with reading(file) as other:
+            assert set(other.statuses()) == {QUESTION.key, "x"}
+    with opened(file, STUDY):
+        pass
+    assert list(file.parent.iterdir()) == [file]
 
 
 @pytest.mark.parametrize(
@@ -148,9 +177,13 @@ def test_tables_of_a_later_version_are_refused(file):
 
 def test_a_damaged_file_is_refused_in_a_sentence(file):
     with opened(file, STUDY) as results:
-        for step in range(300):
-            design = varied(FINGER, {"bubble_width": 19 + 1e-3 * step})
-            results.keep(Row(failed(Question(design), "no"), design, position=step))
+        designs = [varied(FINGER, {"bubble_width": 19 + 1e-3 * step}) for step in range(300)]
+        results.keep(
+            *(
+                Row(failed(Question(each), "no"), each, position=at)
+                for at, each in enumerate(designs)
+            )
+        )
     content = bytearray(file.read_bytes())
     content[8192:16384] = b"\xa5" * 8192
     file.write_bytes(content)

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import pytest
+from fakes import FakeContact, FakeEvaluation
 
 from bellows_design.batch.executor import Here
 from bellows_design.batch.question import Question
@@ -10,6 +13,8 @@ from bellows_design.batch.session import Session
 from bellows_design.budget import Budget
 from bellows_design.design.shipped import load_design
 from bellows_design.design.variation import varied
+from bellows_design.errors import DesignError
+from solver.errors import MeshingError, SolverError
 
 FINGER = load_design("finger")
 NEAR = varied(FINGER, {"bubble_width": 19.7})
@@ -44,6 +49,62 @@ def test_a_design_that_cannot_be_evaluated_is_an_answer_too():
     answer = Session(budget=Budget(seconds=0.01)).answer(Question(FINGER, "ordinary"))
     assert answer.status == "failed"
     assert answer.reason
+
+
+@dataclass(frozen=True, kw_only=True)
+class Neighbour(FakeEvaluation):
+    ordinary: bool = False
+    fallback: str = ""
+    distance: float = 0.01
+
+
+@pytest.fixture
+def evaluated(monkeypatch):
+    """Designs that are evaluated by themselves, in order; a neighbour costs nothing."""
+    designs = []
+
+    def evaluate(design, *_, **__):
+        designs.append(design)
+        void = design == FINGER
+        return FakeEvaluation(design=design, contact=FakeContact(void=void, where=("walls",)))
+
+    class Around:
+        def __init__(self, anchor):
+            self.anchor = anchor
+
+        def evaluate(self, design, **_):
+            return Neighbour(design=design, max_von_mises_mpa=self.anchor.max_von_mises_mpa)
+
+    monkeypatch.setattr("bellows_design.evaluation.evaluate", evaluate)
+    monkeypatch.setattr("bellows_design.neighbours.neighbourhood.Neighbourhood", Around)
+    return designs
+
+
+def test_questions_that_start_from_the_evaluation_at_hand_find_it(evaluated):
+    session = Session()
+    session.begin(FakeEvaluation(design=FINGER, max_von_mises_mpa=1.25))
+    for design in (NEAR, FINGER):
+        answer = session.answer(Question(design, FINGER))
+        assert (answer.origin, answer.max_von_mises_mpa) == ("neighbour", 1.25), answer
+    assert evaluated == []
+
+
+def test_what_is_no_start_is_evaluated_once(evaluated):
+    widths = (19.5, 19.6, 19.7, 19.8, 19.9)
+    designs = [varied(FINGER, {"bubble_width": width}) for width in widths]
+    session = Session()
+    answers = [session.answer(Question(design, FINGER)) for design in designs]
+    assert {answer.origin for answer in answers} == {"ordinary"}
+    assert evaluated == [FINGER, *designs]
+
+
+@pytest.mark.parametrize("error", [DesignError, SolverError, MeshingError])
+def test_sentences_of_evaluations_are_no_internal_errors(monkeypatch, error):
+    def refuse(*_, **__):
+        raise error("it cannot be meshed.")
+
+    monkeypatch.setattr("bellows_design.evaluation.evaluate", refuse)
+    assert Session().answer(Question(FINGER, "ordinary")).reason == "it cannot be meshed."
 
 
 def test_a_thread_of_this_process_answers_in_order():

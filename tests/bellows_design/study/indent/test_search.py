@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
-from fakes import FakeEstimate, FakeEvaluation
+from fakes import FakeContact, FakeEstimate, FakeEvaluation
 
 from bellows_design.analysis.models import choose
 from bellows_design.design.design import Design
@@ -21,6 +21,7 @@ from bellows_design.study.indent.kinds import KINDS, Kind
 from bellows_design.study.indent.search import IndentStudy, searched
 from bellows_design.study.indent.trial import Trial, front
 from bellows_design.study.indent.walk import Walk, walk_bounds
+from solver.errors import MeshingError, SolverError
 
 BASE = load_design("prototype_2")
 
@@ -75,10 +76,52 @@ def test_what_is_found_for_an_aim_is_no_worse_than_any_point_of_the_spread(
 
 def test_designs_that_are_not_solved_are_no_trials(monkeypatch: pytest.MonkeyPatch) -> None:
     def never(design: Design) -> FakeEvaluation:
-        return FakeEvaluation(design=design, converged=design.indent is None)
+        return FakeEvaluation(design=design, converged=design.indent is None, message="halfway")
 
     study = searched(BASE, never, points=2)
     assert study.trials == study.found == () and study.front == (study.plain,)
+
+
+VOID = FakeContact(void=True, where=("walls",))
+
+
+def test_results_that_do_not_hold_are_no_trials_and_do_not_end_the_search(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def deep_ones_are_void(design: Design) -> FakeEvaluation:
+        found = made_up(design)
+        void = design.indent is not None and design.indent.depth > 0.3
+        return replace(found, contact=VOID) if void else found
+
+    monkeypatch.setattr(search, "Walk", Shallower)
+    monkeypatch.setattr(search, "refused_by", lambda _: ())
+    found = searched(BASE, deep_ones_are_void, points=5)
+    depths = [trial.indent.depth for trial in found.trials if trial.indent is not None]
+    assert depths and max(depths) <= 0.3 and len(found.found) == 2
+
+
+def test_a_design_without_indent_that_is_void_is_refused() -> None:
+    with pytest.raises(DesignError, match="without indent: walls touch"):
+        searched(BASE, lambda design: replace(made_up(design), contact=VOID), points=1)
+
+
+@pytest.mark.parametrize("error", [DesignError, SolverError, MeshingError])
+def test_a_walk_or_a_trial_that_fails_leaves_what_is_known(
+    monkeypatch: pytest.MonkeyPatch, error: type[Exception]
+) -> None:
+    class Nowhere:
+        def __init__(self, *_: Any) -> None:
+            raise error("no neighbour can start there.")
+
+    def wide_ones_fail(design: Design) -> FakeEvaluation:
+        if design.indent is not None and design.indent.width > 2:
+            raise error("no mesh.")
+        return made_up(design)
+
+    monkeypatch.setattr(search, "Walk", Nowhere)
+    monkeypatch.setattr(search, "refused_by", lambda _: ())
+    found = searched(BASE, wide_ones_fail, points=5)
+    assert len(found.found) == 2 and len(found.trials) > 2
 
 
 @pytest.mark.parametrize("points", [0, 201])

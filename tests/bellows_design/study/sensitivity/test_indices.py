@@ -42,6 +42,12 @@ def test_the_indices_of_a_linear_surrogate_are_the_squares_of_its_slopes():
         assert found[name].total == pytest.approx(share, abs=0.01)
 
 
+@pytest.mark.parametrize("seed", [0, 1])
+def test_the_same_seed_gives_the_same_indices_and_intervals(seed: int):
+    one, other = (sobol_indices(lambda x: x[:, 0] + x[:, 1] ** 2, "ab", seed, 64) for _ in range(2))
+    assert one == other
+
+
 def test_intervals_are_narrower_with_more_samples():
     def product(x: np.ndarray) -> np.ndarray:
         return x[:, 0] * (1 + x[:, 1])

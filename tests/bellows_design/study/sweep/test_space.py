@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from bellows_design.design.overrides import with_overrides
 from bellows_design.design.shipped import load_design
 from bellows_design.errors import DesignError
 from bellows_design.study.sweep.space import Axis, axes, design_at
@@ -38,6 +39,7 @@ def test_an_axis_is_written_as_it_is_read():
         (["bubble_width=16:wide"], "“wide” is no finite number"),
         (["bubble_width=nan:20"], "“nan” is no finite number"),
         (["bubble_width=16:inf"], "“inf” is no finite number"),
+        (["load.pressure=-1.7e308:1.7e308"], "must lie within ±1e\\+09"),
         (["bubble_width=16:20:0"], "2 to 10000"),
         (["bubble_width=16:20:1"], "2 to 10000"),
         (["bubble_width=16:20:-3"], "2 to 10000"),
@@ -57,6 +59,15 @@ def test_a_design_has_the_values_of_its_point():
     design = design_at(FINGER, {"bubble_width": 19.0, "indent.depth": 0.3, "load.pressure": 0.05})
     assert (design.bellows.bubble_width, design.indent.depth) == (19.0, 0.3)
     assert design.load.pressure == 0.05
+
+
+@pytest.mark.parametrize("radius", [0.0, 0.8, 1.0])
+def test_a_fillet_is_varied_whether_it_is_none_or_a_full_round(radius):
+    """Chambers are 2 mm long: 1 mm is a full round."""
+    base = with_overrides(FINGER, ["outer_fillet=1", f"inner_fillet={radius}"])
+    (axis,) = axes(["inner_fillet=0:0.6:3"], base)
+    for value in (axis.low, 0.3, axis.high):
+        assert design_at(base, {axis.name: value}).bellows.inner_fillet == value
 
 
 def test_a_fillet_in_percent_is_that_share_of_what_its_edges_allow():

@@ -134,7 +134,16 @@ def test_what_is_no_sweep_is_refused_in_a_sentence_and_nothing_is_written(
 
 
 @pytest.mark.parametrize(
-    "address", ["nonsense", "tcp://host", "http://host:80", "tcp://host:eighty"]
+    "address",
+    [
+        "nonsense",
+        "tcp://host",
+        "http://host:80",
+        "tcp://host:eighty",
+        "tcp://a..b:8786",
+        f"tcp://{70 * 'a'}:8786",
+        "tcp://[::1:8786",
+    ],
 )
 def test_what_is_no_address_of_a_scheduler_is_refused(bellows, tmp_path, monkeypatch, address):
     monkeypatch.chdir(tmp_path)
