@@ -99,8 +99,7 @@ class Optimization:
 
     def descent(self, start: Reals, choice: Choice, at: Coordinator) -> Descent:
         """Of one choice from values of its variables, on meshes of the usual accuracy."""
-        bar = min((self.goal.merit(each.values) for each in at.most_promising(1)), default=math.inf)
-        return Descent(self.variables(choice), self.goal, start, bar)
+        return Descent(self.variables(choice), self.goal, start, self._bar(at))
 
     def fine_descent(self, start: Point, goal: Goal) -> Descent:
         """Of one choice from a point, on finer meshes."""
@@ -126,19 +125,26 @@ class Optimization:
         """The base, and those of other choices that promise most."""
         starts = [] if first is None else [first]
         taken = {each.choice for each in starts}
-        others = self._by_promise(each for each in at.points if each.choice not in taken)
+        others = self._by_promise((p for p in at.points if p.choice not in taken), at)
         return [*starts, *others][: self.effort.starts]
 
-    def _by_promise(self, points: Iterable[Point]) -> list[Point]:
-        """The point of each choice that promises most, the best first."""
+    def _by_promise(self, points: Iterable[Point], at: Coordinator) -> list[Point]:
+        """The point of each choice that promises most, the best first.
 
-        def promised(point: Point) -> float:
-            return promise(point, self.variables(point.choice), self.goal)
-
+        Of those only that promise more than the best is already.
+        """
+        ordinary = [each for each in points if each.ordinary]
+        merits = [promise(each, self.variables(each.choice), self.goal) for each in ordinary]
         found: dict[Choice, Point] = {}
-        for point in sorted((each for each in points if each.ordinary), key=promised):
-            found.setdefault(point.choice, point)
+        for place in sorted(range(len(ordinary)), key=merits.__getitem__):
+            if merits[place] < self._bar(at):
+                found.setdefault(ordinary[place].choice, ordinary[place])
         return list(found.values())
+
+    def _bar(self, at: Coordinator) -> float:
+        """The best merit so far."""
+        best = at.most_promising(1)
+        return min((self.goal.merit(each.values) for each in best), default=math.inf)
 
     def _around_the_best(self, at: Coordinator, all_choices: Sequence[Choice]) -> None:
         """Descents of the choices beside the best one's that promise most, while that helps.
@@ -157,7 +163,7 @@ class Optimization:
             looked_at.update({best.choice, *others})
             requests = [self._request(each, best.design) for each in others]
             points = at.evaluated([each for each in requests if each.possible])
-            chosen = self._by_promise(each for each in points if each is not None)
+            chosen = self._by_promise((each for each in points if each is not None), at)
             at.lead(self._descent_from(each, at) for each in chosen[:MOST_PROMISING])
 
     def _request(self, choice: Choice, design: Design) -> Request:
