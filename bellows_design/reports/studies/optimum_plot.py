@@ -29,7 +29,7 @@ def plot_optimum(optimum: Optimum, path: Path) -> None:
         axes.axvline(limit, color="0.4", linestyle="--", linewidth=1)
         axes.annotate("limit", (limit, 0.02), xycoords=("data", "axes fraction"), color="0.4")
         axes.set(xlabel="highest von Mises stress, MPa", ylabel="bending angle, °")
-        axes.set_xlim(0, 2 * limit)
+        axes.set_xlim(0, 1.4 * limit)
         axes.grid(True, linewidth=0.4, alpha=0.4)
         axes.legend(loc="upper left")
 
