@@ -42,6 +42,9 @@ BOUNDS = Bounds(lines=(3, 4, 5))
 FIRST = 16
 """Designs of the global stage before the descents."""
 
+WORKERS = 1
+"""Processes: times are those of evaluations, whoever works on them."""
+
 MARKS = (10, 20, 40, 60, 100, 150, 200, 300)
 """Evaluations after which the best is noted."""
 
@@ -137,7 +140,7 @@ def measured(method: str, folder: Path, designs: int, minutes: float) -> list[di
     stages.GlobalStage = EgoboxStage if method == "egobox" else _OPTUNA
     began = time.monotonic()
     with opened(folder / f"{method}.sqlite", study_of(sought)) as results:
-        machine = ThisMachine.of(2)
+        machine = ThisMachine.of(WORKERS)
         workers = Cluster(partial(Session, budget=machine.budget), machine)
         try:
             at = Coordinator(GOAL, results, workers, began + 60 * minutes, lambda _: None)
