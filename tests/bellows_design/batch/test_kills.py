@@ -45,6 +45,12 @@ def environment() -> dict[str, str]:
     return {**os.environ, "PYTHONPATH": os.pathsep.join(paths)}
 
 
+def hear_signals() -> None:
+    """In a new process: what a shell runs in its background may be deaf to them."""
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, signal.SIG_DFL)
+
+
 @contextmanager
 def program(*arguments: object) -> Iterator[subprocess.Popen[str]]:
     """A Python program in a session of its own, of which nothing is left after the block."""
@@ -56,6 +62,7 @@ def program(*arguments: object) -> Iterator[subprocess.Popen[str]]:
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         start_new_session=True,
+        preexec_fn=hear_signals,
     )
     try:
         yield process
