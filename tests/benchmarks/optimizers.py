@@ -32,7 +32,7 @@ from bellows_design.study.optimize.coordinator import Coordinator
 from bellows_design.study.optimize.goal import Goal
 from bellows_design.study.optimize.point import Point
 from bellows_design.study.optimize.run import study_of
-from bellows_design.study.optimize.search.global_stage import COUNTS, IMPOSSIBLE, Suggestion
+from bellows_design.study.optimize.search.global_stage import COUNTS, Suggestion
 from bellows_design.study.optimize.space.choices import Bounds, Choice
 from bellows_design.study.optimize.stages import Effort, Optimization
 
@@ -44,6 +44,9 @@ FIRST = 16
 
 WORKERS = 1
 """Processes: times are those of evaluations, whoever works on them."""
+
+IMPOSSIBLE = 1e3
+"""In the place of the merit of a design that does not exist, or failed."""
 
 MARKS = (10, 20, 40, 60, 100, 150, 200, 300)
 """Evaluations after which the best is noted."""
