@@ -12,7 +12,6 @@ from bellows_design.study.paper import TABLE_4, Result
 
 STORED = {
     "finger": "6864549071c8487e9e9c49e73281cd5110b83ee786cc2bca34862ef3142719e3",
-    "finger_nine": "fdcb924657e42a52d0c690bcd7a172c23cab9c103e0c3dbe85de81ca74396d98",
     "prototype_1": "f02f6b6d90ce154632afab17c0173d7861cc616bdc4d035add24b950a49aa231",
     "prototype_2": "9d2b0c32f5709682047afd5bbe2e908575b05555c328c0bfe746eda03c35f35a",
     "prototype_2_indent": "2417871276d967ed0056df20b31c25b5ba16aa2b96429d7344164c3808ffda9a",
