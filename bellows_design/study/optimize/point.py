@@ -43,7 +43,8 @@ class Point:
         design: The design.
         answer: What was found.
         values: Responses by name: ``angle`` (°), ``stress`` (MPa), ``volume`` (mm³), ``strain``,
-            and ``material`` (mm³) where the goal is about it.
+            ``gap`` (``GAP_SCALE``) where bubbles face each other, and ``material`` (mm³) where the
+            goal is about it.
     """
 
     choice: Choice

@@ -40,7 +40,7 @@ class Optimum:
         optimization: What was asked.
         best: The best design that keeps all limits; None if none was found.
         front: Designs that no other one beats in angle and stress together, by rising stress.
-        points: Every design that was evaluated, in this run or one before.
+        points: Every design that the search asked for, evaluated in this run or one before.
         verification: Of the best; None without one.
         failure: Why the best could not be verified; empty if it was, or was not to be.
         asked, known, failed: Designs evaluated now, known from before, and without a result.
