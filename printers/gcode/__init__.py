@@ -1,0 +1,1 @@
+"""G-code of a slicer, read as the beads of plastic that it lays down."""

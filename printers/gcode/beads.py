@@ -1,0 +1,95 @@
+"""The beads of plastic that a printer lays down: what G-code means for the part."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from printers.arrays import Flags, Floats, Ints
+
+EXTERNAL_PERIMETER = 0
+PERIMETER = 1
+INFILL = 2
+SOLID_INFILL = 3
+BRIDGE = 4
+GAP_FILL = 5
+SUPPORT = 6
+SKIRT = 7
+OTHER = 8
+
+KIND_NAMES = (
+    "external perimeter",
+    "perimeter",
+    "infill",
+    "solid infill",
+    "bridge",
+    "gap fill",
+    "support",
+    "skirt or brim",
+    "other",
+)
+"""By the number of the kind."""
+
+
+@dataclass(frozen=True, eq=False)
+class Beads:
+    """Straight beads in the order in which they are printed, in the frame of the G-code.
+
+    Arcs are parted into straight beads. Travels and moves without plastic are no beads.
+
+    Attributes:
+        start: Of the bead's axis in the plane of its layer, mm.
+            *Shape:* `(n, 2)`
+        end: Likewise.
+            *Shape:* `(n, 2)`
+        top: Height of the nozzle above the bed, mm: the upper side of the bead.
+            *Shape:* `(n,)`
+        height: Of the bead, mm: down to the layer below.
+            *Shape:* `(n,)`
+        width: Of a rectangle as high as the bead that holds its plastic, mm: volume over length
+            and height, from the filament that is fed.
+            *Shape:* `(n,)`
+        nominal_width: What the slicer states in a comment, mm; NaN where it states none.
+            *Shape:* `(n,)`
+        kind: Number in `KIND_NAMES`.
+            *Shape:* `(n,)`
+        path: Number of the unbroken extrusion the bead belongs to: beads of one path follow each
+            other end to end, and plastic begins and ends to flow at the ends of a path.
+            *Shape:* `(n,)`
+        layer: Number of the layer, from 0: beads of one layer have the same `top`.
+            *Shape:* `(n,)`
+    """
+
+    start: Floats
+    end: Floats
+    top: Floats
+    height: Floats
+    width: Floats
+    nominal_width: Floats
+    kind: Ints
+    path: Ints
+    layer: Ints
+
+    def __len__(self) -> int:
+        return len(self.start)
+
+    def chosen(self, which: Flags | Ints) -> Beads:
+        """The beads picked by flags or by number."""
+        return Beads(*(getattr(self, name)[which] for name in self.__dataclass_fields__))
+
+    @cached_property
+    def length(self) -> Floats:
+        """(n,) mm."""
+        return np.asarray(np.linalg.norm(self.end - self.start, axis=1))
+
+    @cached_property
+    def volume(self) -> Floats:
+        """(n,) mm³ of plastic."""
+        return self.length * self.width * self.height
+
+    @property
+    def of_part(self) -> Flags:
+        """(n,): beads that are part of the part, neither support nor skirt."""
+        return np.asarray((self.kind != SUPPORT) & (self.kind != SKIRT))
