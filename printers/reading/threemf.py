@@ -97,7 +97,7 @@ def _total(
         key = (place, item.number)
         if key not in contents.sizes:
             inner = _total(contents, place, found.components, depth + 1)
-            contents.sizes[key] = 1 + inner[0], len(found.corners) // 3 + inner[1]
+            contents.sizes[key] = 1 + inner[0], found.size + inner[1]
         copies, triangles = copies + contents.sizes[key][0], triangles + contents.sizes[key][1]
     return copies, triangles
 

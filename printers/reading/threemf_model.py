@@ -61,6 +61,11 @@ class Object:
         """Whether it is meant to be there once the part is finished."""
         return self.kind not in _NO_PART
 
+    @property
+    def size(self) -> int:
+        """Triangles; more if its vertices are many more than triangles need."""
+        return max(len(self.corners) // 3, len(self.coordinates) // 9)
+
     def mesh(self) -> tuple[Floats, Ints]:
         """(n, 3) vertices and (m, 3) triangles. Raises PrintersError."""
         vertices = np.array(self.coordinates).reshape(-1, 3)
