@@ -15,4 +15,4 @@ STEP_SECONDS = 60.0
 """Time for a STEP file, whose reader may never end."""
 
 STEP_MEMORY = 4 * 2**30
-"""Bytes of address space for it; CadQuery's libraries alone take 1.3 GiB of that."""
+"""Bytes of address space for it; the CAD kernel's libraries alone take 0.6 GiB of that."""

@@ -64,13 +64,13 @@ def _stl(content: bytes) -> ReadPart:
 
 
 def _3mf(content: bytes) -> ReadPart:
-    from printers.reading.threemf import read_3mf
+    from printers.reading.threemf.reader import read_3mf
 
     return read_3mf(content)
 
 
 def _step(content: bytes) -> ReadPart:
-    from printers.reading.step import read_step
+    from printers.reading.step_files.reader import read_step
 
     return read_step(content)
 

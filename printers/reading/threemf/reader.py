@@ -11,9 +11,9 @@ import numpy as np
 
 from printers.arrays import Floats, Ints
 from printers.errors import PrintersError, quoted
-from printers.reading.package import Package
 from printers.reading.part import ReadPart, require_few
-from printers.reading.threemf_model import (
+from printers.reading.threemf.archive import Package
+from printers.reading.threemf.model import (
     DEFAULT_UNIT,
     UNITS,
     ModelFile,
@@ -21,7 +21,7 @@ from printers.reading.threemf_model import (
     Placed,
     read_model,
 )
-from printers.reading.xml_events import Attributes, read_elements
+from printers.reading.threemf.xml_events import Attributes, read_elements
 
 USUAL_PLACE = "3D/3dmodel.model"
 DEEPEST_NESTING = 16  # of objects made of objects
@@ -85,9 +85,7 @@ def _start(package: Package) -> str:
     return found[0] if found else USUAL_PLACE
 
 
-def _total(
-    contents: _Contents, file: str, items: list[Placed], depth: int = 0
-) -> tuple[int, int]:
+def _total(contents: _Contents, file: str, items: list[Placed], depth: int = 0) -> tuple[int, int]:
     """Copies and triangles that items come to, each object looked at once."""
     if depth > DEEPEST_NESTING:
         raise PrintersError(f"its objects are made of each other more than {DEEPEST_NESTING} deep")

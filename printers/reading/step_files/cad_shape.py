@@ -32,11 +32,19 @@ def shape_in(path: Path) -> CadShape:
     reader = STEPControl_Reader()
     if reader.ReadFile(str(path)) != IFSelect_ReturnStatus.IFSelect_RetDone:
         raise PrintersError("the CAD kernel finds no STEP in it")
+    _require_whole(reader)
     units = _units(reader)
     reader.TransferRoots()
     if not reader.NbShapes():
         raise PrintersError("it holds no shape")
     return _sewn(reader.OneShape(), units)
+
+
+def _require_whole(reader: Any) -> None:
+    """Entities that name others which the file lacks: the rest would be half a part."""
+    fails = reader.WS().Model().GlobalCheck().NbFails()
+    if fails:
+        raise PrintersError(f"it is damaged: {fails} of its references lead nowhere")
 
 
 def _units(reader: Any) -> str:
@@ -67,8 +75,8 @@ def _sewn(shape: Any, units: str) -> CadShape:
 
 
 def _count(shape: Any, kind: Any) -> int:
-    from OCP.TopTools import TopTools_IndexedMapOfShape
     from OCP.TopExp import TopExp
+    from OCP.TopTools import TopTools_IndexedMapOfShape
 
     found = TopTools_IndexedMapOfShape()
     TopExp.MapShapes_s(shape, kind, found)

@@ -19,7 +19,7 @@ import numpy as np
 from printers.errors import PrintersError, shortened
 from printers.reading.limits import STEP_MEMORY, STEP_SECONDS
 from printers.reading.part import ReadPart, require_few
-from printers.reading.step_worker import MESH, PART, SENTENCE
+from printers.reading.step_files.worker import MESH, PART, SENTENCE
 
 _TAIL = 4096  # bytes in which a whole file says that it ends
 
@@ -49,7 +49,14 @@ def _worked(folder: Path, seconds: float, memory: int) -> str:
     """Run the process; how it ended, empty if well."""
     process = subprocess.Popen(
         # -P: nothing from the current folder, which may hold a file of any name
-        [sys.executable, "-P", "-m", "printers.reading.step_worker", str(folder), str(memory)],
+        [
+            sys.executable,
+            "-P",
+            "-m",
+            "printers.reading.step_files.worker",
+            str(folder),
+            str(memory),
+        ],
         stdin=subprocess.DEVNULL,
         stdout=subprocess.DEVNULL,  # the kernel talks
         stderr=subprocess.DEVNULL,
@@ -75,9 +82,18 @@ def _environment() -> Mapping[str, str]:
     return {**kept, **threads, "PYTHONPATH": places}
 
 
+def _sentence(folder: Path) -> str:
+    """What the process has to say; empty if nothing, or if it had no memory left to say it."""
+    try:
+        return shortened((folder / SENTENCE).read_text("utf-8"))
+    except (FileNotFoundError, UnicodeDecodeError):
+        return ""
+
+
 def _result(folder: Path, how: str) -> ReadPart:
-    if (folder / SENTENCE).is_file():
-        raise PrintersError(shortened((folder / SENTENCE).read_text("utf-8")))
+    sentence = _sentence(folder)
+    if sentence:
+        raise PrintersError(sentence)
     if how or not (folder / MESH).is_file():
         raise PrintersError(f"the CAD kernel could not read it: {how or 'it left no mesh'}")
     try:

@@ -1,4 +1,4 @@
-"""The process that reads a STEP file: ``python -m printers.reading.step_worker FOLDER MEMORY``.
+"""The process that reads a STEP file: ``python -m printers.reading.step_files.worker FOLDER MEMORY``.
 
 It reads `PART` in the folder and leaves `MESH`, or one sentence in `SENTENCE`. Whatever else
 becomes of it is its caller's to notice.
@@ -33,8 +33,8 @@ def main(folder: Path, memory: int) -> None:
 def _read(folder: Path) -> None:
     import numpy as np
 
-    from printers.reading.cad_mesh import mesh_of
-    from printers.reading.cad_shape import shape_in
+    from printers.reading.step_files.cad_mesh import mesh_of
+    from printers.reading.step_files.cad_shape import shape_in
 
     found = shape_in(folder / PART)
     vertices, triangles, notes = mesh_of(found.shape)

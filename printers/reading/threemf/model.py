@@ -15,7 +15,7 @@ import numpy as np
 from printers.arrays import Floats, Ints
 from printers.errors import PrintersError, quoted
 from printers.reading.limits import MOST_TRIANGLES
-from printers.reading.xml_events import Attributes, read_elements
+from printers.reading.threemf.xml_events import Attributes, read_elements
 
 CORE = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
 PRODUCTION = "http://schemas.microsoft.com/3dmanufacturing/production/2015/06"
@@ -70,7 +70,7 @@ class Object:
         """(n, 3) vertices and (m, 3) triangles. Raises PrintersError."""
         vertices = np.array(self.coordinates).reshape(-1, 3)
         triangles = np.array(self.corners).reshape(-1, 3)
-        if len(triangles) and not (0 <= triangles.min() and triangles.max() < len(vertices)):
+        if len(triangles) and not (triangles.min() >= 0 and triangles.max() < len(vertices)):
             raise PrintersError(
                 f"a triangle names a vertex beyond the {len(vertices)} of its object"
             )
@@ -107,7 +107,9 @@ class _Reading:
     def begin(self, name: str, attributes: Attributes) -> None:
         space, _, tag = name.rpartition(" ")
         if tag in _SHAPES:
-            raise PrintersError(f"it holds a {tag}, a shape other than triangles, which is not read")
+            raise PrintersError(
+                f"it holds a {tag}, a shape other than triangles, which is not read"
+            )
         action = _ACTIONS.get(tag) if space == CORE else None
         if action is not None:
             try:
