@@ -1,4 +1,4 @@
-"""The process that reads a STEP file: ``python -m printers.reading.step_files.worker FOLDER MEMORY``.
+"""The process that reads a STEP file, with a folder and a number of bytes as its arguments.
 
 It reads `PART` in the folder and leaves `MESH`, or one sentence in `SENTENCE`. Whatever else
 becomes of it is its caller's to notice.
