@@ -157,9 +157,9 @@ def _understood(
     diameter, source = _filament_diameter(comments, argument, needed=not volumetric.all())
     area = np.pi * diameter**2 / 4
     beads, notes = _beads(moves, np.where(volumetric, 1.0, area) * moves[:, FED], comments)
-    length = machine.fed + machine.fed_volume / area
+    length = machine.length + machine.volume / area
     if facts.number("use_volumetric_e"):
-        length = (machine.fed + machine.fed_volume) / area
+        length = (machine.length + machine.volume) / area
     stated = facts.filament_length
     return GCode(
         beads=beads,
@@ -197,7 +197,7 @@ def _filament_diameter(
     assert diameter is not None
     if not least <= diameter <= largest:
         raise PrintersError(
-            f"filament_diameter is {diameter:g} mm; it must lie between {least:g} and {largest:g} mm"
+            f"filament_diameter is {diameter:g} mm; it must lie from {least:g} to {largest:g} mm"
         )
     return diameter, source
 
