@@ -21,8 +21,9 @@ def orca_settings(profile: PrinterProfile) -> dict[str, str]:
 
     Its command line does not resolve what a profile inherits
     (github.com/OrcaSlicer/OrcaSlicer/issues/14718), so the files inherit nothing and name every
-    setting that has to do with sealing. The keys are those of OrcaSlicer 2; the files were not run
-    through it here.
+    setting that has to do with sealing. The keys and words are those of
+    OrcaSlicer 2.3 and newer, held against its own project files; the files were not run through
+    it here.
 
     Returns:
         File name -> text: `NAME.machine.json`, `NAME.process.json` and `NAME.filament.json`, used
@@ -176,7 +177,7 @@ def _walls(profile: PrinterProfile) -> Mapping[str, Any]:
 def _solid(profile: PrinterProfile) -> Mapping[str, Any]:
     return {
         "sparse_infill_density": f"{profile.slicer.infill_density:g}%",
-        "sparse_infill_pattern": "rectilinear" if profile.slicer.infill_density < 100 else "zig-zag",
+        "sparse_infill_pattern": "rectilinear",
         "infill_wall_overlap": f"{profile.slicer.infill_overlap:g}%",
         "top_bottom_infill_wall_overlap": f"{profile.slicer.infill_overlap:g}%",
         "infill_combination": 0,

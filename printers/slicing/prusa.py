@@ -10,7 +10,7 @@ from typing import TypeAlias
 from printers.profile import PrinterProfile
 
 OLDEST_PRUSASLICER = (2, 5)
-"""The first version with the perimeter generator Arachne, and the one the keys were checked with."""
+"""The first with the perimeter generator Arachne, and the one the keys were checked with."""
 
 Settings: TypeAlias = Mapping[str, str | int | float]
 
