@@ -43,8 +43,8 @@ class Mouth:
 
     @property
     def diameter(self) -> float:
-        """Of a circle of the same area, mm."""
-        return 2 * float(np.sqrt(self.area / np.pi))
+        """Of the circle, or of one with the same area, mm."""
+        return 2 * self.radius if self.is_round else 2 * float(np.sqrt(self.area / np.pi))
 
     def opening(self, name: str) -> Opening:
         """As it is declared. Raises PrintersError if it is wider than an opening can be."""
