@@ -14,8 +14,8 @@ from printers.measure.samples import sample
 from printers.measure.surface import Surface
 
 RAYS = 48
-SAMPLES_PER_SQUARE_MILLIMETRE = 2.0
-SAMPLE_BOUNDS = (3_000, 10_000)
+SAMPLES_PER_SQUARE_MILLIMETRE = 1.0
+SAMPLE_BOUNDS = (2_000, 6_000)
 LIFT = 1e-4  # mm above the surface, from which rays start
 SMOOTH = 0.87  # cosine of 30°: triangles that turn by less are of one face
 SPREADING = 200  # steps of neighbours at most over which triangles without a sample are filled

@@ -16,6 +16,7 @@ from printers.report import place
 from printers.tolerances import FACET_TOLERANCE, ROUNDING
 
 ENTRY = 0.5  # mm behind the rim over which a pin of the mouth's diameter must find room
+DIGITS = 6  # of a coordinate in mm: more are noise of single precision
 PLANE = 0.05  # mm: a rim this close to a plane is one
 
 
@@ -86,14 +87,18 @@ def _mouth(surface: Surface, cavity: Cavity, rim: Ints) -> Mouth | None:
     pin = radius if room > radius - 2 * FACET_TOLERANCE else room
     height = float(np.ptp(flat_start[:, 2]))
     return Mouth(
-        _triple(centre), _triple(axis), min(pin, LARGEST_LENGTH), float(distances.max()), area,
+        _triple(centre), _triple(axis), _rounded(min(pin, LARGEST_LENGTH)), float(distances.max()), area,
         is_round, height <= 2 * PLANE,
     )  # fmt: skip
 
 
 def _triple(vector: Floats) -> tuple[float, float, float]:
-    x, y, z = (round(float(value), 9) + 0.0 for value in vector)
+    x, y, z = (_rounded(value) for value in vector)
     return x, y, z
+
+
+def _rounded(value: float) -> float:
+    return round(float(value), DIGITS) + 0.0
 
 
 def _circle(start: Floats, end: Floats) -> tuple[Floats, float, bool]:

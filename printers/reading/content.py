@@ -18,9 +18,13 @@ def content_of(path: Path, largest: int = LARGEST_FILE) -> bytes:
     """
     # Without O_NONBLOCK a pipe would wait here for someone to write into it.
     number = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
-    with open(number, "rb") as file:
-        _require_regular(os.fstat(number), largest)
-        content = file.read(largest + 1)
+    try:
+        found = os.fstat(number)
+        _require_regular(found, largest)
+        with open(number, "rb", closefd=False) as file:
+            content = file.read(found.st_size + 1)  # a place for all of this is taken at once
+    finally:
+        os.close(number)
     if not content:
         raise PrintersError("it is empty")
     _require_size(len(content), largest)

@@ -107,9 +107,7 @@ class _Reading:
     def begin(self, name: str, attributes: Attributes) -> None:
         space, _, tag = name.rpartition(" ")
         if tag in _SHAPES:
-            raise PrintersError(
-                f"it holds a {tag}, a shape other than triangles, which is not read"
-            )
+            raise PrintersError(f"it holds a {tag}, which is not read: only triangles are")
         action = _ACTIONS.get(tag) if space == CORE else None
         if action is not None:
             try:
