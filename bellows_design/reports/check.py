@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from bellows_design.design.design import Design
     from printers.report import PrintabilityReport, RuleResult
 
-_STYLES = {"pass": "green", "warn": "yellow", "fail": "bold red"}
+_STYLES = {"pass": "green", "info": "cyan", "warn": "yellow", "fail": "bold red"}
 
 
 def check_table(design: Design, report: PrintabilityReport) -> Sequence[RenderableType]:
