@@ -1,17 +1,20 @@
 """The whole printability check of one part for one printer: the list of rules, applied in turn.
 
-A new rule is a file in `printers/rules` and a line in one of the two lists here.
+A new rule is a row of `printers/rule_table.py`, a file in `printers/rules` and a line in one of the
+two lists here.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 
 from printers.errors import PrintersError
 from printers.measure.part import MeasuredPart
 from printers.model import PrintedModel
 from printers.profile import PrinterProfile
 from printers.report import PrintabilityReport, RuleResult
+from printers.rule_table import RULES
 from printers.rules.airtightness import check_airtightness
 from printers.rules.envelope import check_bed_contact, check_build_volume, check_cross_section
 from printers.rules.gaps import check_declared_gaps, check_measured_gaps
@@ -59,7 +62,20 @@ def check_printability(model: PrintedModel, profile: PrinterProfile) -> Printabi
     part = MeasuredPart(model, profile)
     if not part.surface.areas.sum() > 0:
         raise PrintersError("the mesh has no triangle with an area")
-    return PrintabilityReport(profile.name, tuple(_results(part)))
+    results = (_completed(result, profile) for result in _results(part))
+    return PrintabilityReport(profile.name, tuple(results))
+
+
+def _completed(result: RuleResult, profile: PrinterProfile) -> RuleResult:
+    """The result with what the table says of its rule, and the severity that the profile sets."""
+    severity = profile.severity(result.rule)
+    changed = result.rule in profile.rules and result.verdict != "pass"
+    return replace(
+        result,
+        verdict=severity if changed else result.verdict,
+        severity=severity,
+        source=RULES[result.rule].source,
+    )
 
 
 def _results(part: MeasuredPart) -> Iterator[RuleResult]:

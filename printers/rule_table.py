@@ -124,4 +124,6 @@ def severity_problem(name: str) -> str:
         return f"there is no rule {quoted(name)}; known: {', '.join(RULES)}"
     if RULES[name].seals:
         return f"{name} keeps its severity: the part's tightness rests on it"
+    if RULES[name].severity == "info":
+        return f"{name} keeps its severity: it tells something and judges nothing"
     return ""

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from printers.orientation.compare import JudgedStance
     from printers.report import PrintabilityReport, RuleResult
 
-_STYLES = {"pass": "green", "warn": "yellow", "fail": "bold red"}
+_STYLES = {"pass": "green", "info": "cyan", "warn": "yellow", "fail": "bold red"}
 
 
 def check_table(design: Design, report: PrintabilityReport) -> Sequence[RenderableType]:

@@ -303,7 +303,7 @@ def _flipped(triangles: Ints, which: NDArray[np.bool_]) -> Ints:
 
 def _of_shell(part: BrokenPart, place: Place) -> NDArray[np.bool_]:
     """Triangles that lie within the box, as only those of one shell do."""
-    low, high = np.asarray(place) + [[-1e-6], [1e-6]]
+    low, high = np.asarray(place[0]) - 1e-6, np.asarray(place[1]) + 1e-6
     corners = part.vertices[part.triangles]
     return np.asarray(((corners >= low) & (corners <= high)).all(axis=(1, 2)))
 
