@@ -11,18 +11,18 @@ DIGITS = 4
 """Of a height in mm: slicers write three, and sums of relative moves are off in the last bit."""
 
 
-def layers(lower: Floats, upper: Floats, lines: Ints) -> tuple[Floats, Ints]:
+def layers(lower: Floats, upper: Floats, of_part: Flags, lines: Ints) -> tuple[Floats, Ints]:
     """(n,) the height at which each bead's layer is printed, and (n,) the layer's number.
 
     `lower` and `upper` are the nozzle's heights at the lower and upper end of each bead, mm. Level
     beads make the layers. A bead that rises on its way up to its layer, as in a seam that
-    OrcaSlicer ramps, is put at the height of the layer.
+    OrcaSlicer ramps, is put at the height of the layer; so is what is not of the part.
 
     Raises:
-        PrintersError: Beads rise through layers, as in a spiral vase.
+        PrintersError: Beads of the part rise through layers, as in a spiral vase.
     """
     lower, upper = np.round(lower, DIGITS), np.round(upper, DIGITS)
-    level = lower == upper
+    level = (lower == upper) | ~of_part
     tops = np.unique(upper[level])
     layer = np.searchsorted(tops, upper)
     below = np.concatenate(([-np.inf], tops))[layer]
