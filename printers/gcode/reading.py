@@ -90,11 +90,11 @@ def read_gcode(path: str | os.PathLike[str], filament_diameter: float | None = N
             if beads_left < 0:
                 raise PrintersError(f"it has more than {MOST_BEADS} beads")
         return _understood(np.concatenate(moves), machine, comments, filament_diameter)
-    except OSError as error:
-        reason = shortened(error.strerror or str(error))
-        raise PrintersError(f"G-code {name} cannot be read: {reason}") from None
     except PrintersError as error:
         raise PrintersError(f"G-code {name}: {error}") from None
+    except (OSError, ValueError) as error:  # ValueError: no name that a file may have
+        reason = shortened(getattr(error, "strerror", None) or str(error))
+        raise PrintersError(f"G-code {name} cannot be read: {reason}") from None
 
 
 def _understood(
