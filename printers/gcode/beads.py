@@ -48,7 +48,7 @@ class Beads:
             *Shape:* `(n, 2)`
         top: Height of the nozzle above the bed, mm: the upper side of the bead.
             *Shape:* `(n,)`
-        height: Of the bead, mm: down to the layer below.
+        height: Of the bead, mm: as the slicer states it, or else down to the layer below.
             *Shape:* `(n,)`
         width: Of a rectangle as high as the bead that holds its plastic, mm: volume over length
             and height, from the filament that is fed.

@@ -38,7 +38,7 @@ def laid_beads(moves: Floats, volume: Floats, comments: Comments) -> Beads:
         raise PrintersError(f"line {first} of the G-code lays down plastic at or below the bed")
     height = np.where(height > 0, height, np.nan)  # purge below the bed, beside it
     length = np.hypot(moves[:, X1] - moves[:, X0], moves[:, Y1] - moves[:, Y0])
-    return Beads(
+    beads = Beads(
         start=np.ascontiguousarray(moves[:, (X0, Y0)]),
         end=np.ascontiguousarray(moves[:, (X1, Y1)]),
         top=top,
@@ -48,7 +48,8 @@ def laid_beads(moves: Floats, volume: Floats, comments: Comments) -> Beads:
         kind=kind,
         path=moves[:, PATH].astype(np.int64),
         layer=layer,
-    ).chosen(height > 0)
+    )
+    return beads if (height > 0).all() else beads.chosen(height > 0)
 
 
 def notes_on(moves: Floats, beads: Beads, comments: Comments) -> Iterator[str]:

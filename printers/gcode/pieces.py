@@ -11,6 +11,9 @@ from printers.gcode.words import LONGEST_LINE
 LARGEST_FILE = 300_000_000
 """Bytes; a print of a day has a tenth of it."""
 
+MOST_LINES = 20_000_000
+"""A day's print has a twentieth of it."""
+
 PIECE = 1_000_000
 """Bytes read at a time."""
 
@@ -20,10 +23,13 @@ def pieces(path: Path) -> Iterator[bytes]:
     if path.exists() and not path.is_file():
         raise PrintersError("it is no file")  # reading from a pipe would wait for a writer
     with path.open("rb") as file:
-        rest, total = b"", 0
+        rest, total, lines = b"", 0, 0
         while block := file.read(PIECE):
             total += len(block)
             _refuse_other_files(block, first=total == len(block))
+            lines += block.count(b"\n")
+            if lines > MOST_LINES:
+                raise PrintersError(f"it has more than {MOST_LINES // 1_000_000} million lines")
             if total > LARGEST_FILE:
                 raise PrintersError(f"it is larger than {LARGEST_FILE // 1_000_000} MB")
             whole, newline, tail = (rest + block).rpartition(b"\n")

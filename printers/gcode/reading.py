@@ -21,8 +21,8 @@ from printers.gcode.machine import COLUMNS, FED, VOLUMETRIC, Machine
 from printers.gcode.pieces import pieces
 from printers.gcode.words import read_lines
 
-MOST_BEADS = 10_000_000
-"""They take 1 GB."""
+MOST_BEADS = 2_000_000
+"""To read them takes 0.7 GB; the shipped finger has 149 000."""
 
 FILAMENT_DIAMETERS = (1.0, 4.0)
 """mm: the least and the largest that is believed, as in a profile."""
@@ -78,23 +78,28 @@ def read_gcode(path: str | os.PathLike[str], filament_diameter: float | None = N
             no filament diameter, or lays down no plastic.
     """
     name = quoted(os.fspath(path))
-    machine, comments, moves = Machine(), Comments(), [np.empty((0, COLUMNS))]
+    machine, comments = Machine(), Comments()
     try:
-        beads_left = MOST_BEADS
-        first = 1
-        for piece in pieces(Path(path)):
-            lines = read_lines(piece, first)
-            comments.collect(piece, lines)
-            moves.append(straightened(machine.follow(lines), beads_left))
-            first, beads_left = first + lines.passed, beads_left - len(moves[-1])
-            if beads_left < 0:
-                raise PrintersError(f"it has more than {MOST_BEADS} beads")
-        return _understood(np.concatenate(moves), machine, comments, filament_diameter)
+        moves = _moves(Path(path), machine, comments)
+        return _understood(moves, machine, comments, filament_diameter)
     except PrintersError as error:
         raise PrintersError(f"G-code {name}: {error}") from None
     except (OSError, ValueError) as error:  # ValueError: no name that a file may have
         reason = shortened(getattr(error, "strerror", None) or str(error))
         raise PrintersError(f"G-code {name} cannot be read: {reason}") from None
+
+
+def _moves(path: Path, machine: Machine, comments: Comments) -> Floats:
+    """(n, 14) all moves that lay down plastic; machine and comments take in the file."""
+    parts, line, count = [np.empty((0, COLUMNS))], 1, 0
+    for piece in pieces(path):
+        lines = read_lines(piece, line)
+        comments.collect(piece, lines)
+        parts.append(straightened(machine.follow(lines), MOST_BEADS))
+        line, count = line + lines.passed, count + len(parts[-1])
+        if count > MOST_BEADS:
+            raise PrintersError(f"it has more than {MOST_BEADS} beads")
+    return np.concatenate(parts)
 
 
 def _understood(

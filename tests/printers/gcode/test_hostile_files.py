@@ -101,3 +101,18 @@ def test_comments_that_make_no_sense_are_passed_over(
     code = read(f"{comment}\nM83\nG1 Z.2\nG1 X5 E1\n")
     assert code.beads.height.tolist() == [0.2]
     assert code.estimated_time is None and code.stated_filament_length is None
+
+
+@pytest.mark.parametrize(
+    ("limit", "message"),
+    [
+        ("comments.MOST_COMMENTS", "more than 5 lines of comments"),
+        ("pieces.MOST_LINES", "more than 0 million lines"),
+    ],
+)
+def test_more_lines_than_a_print_has_are_refused(
+    read: Callable[..., GCode], monkeypatch: pytest.MonkeyPatch, limit: str, message: str
+) -> None:
+    monkeypatch.setattr(f"printers.gcode.{limit}", 5)
+    with pytest.raises(PrintersError, match=message):
+        read("; comment\n" * 6)
