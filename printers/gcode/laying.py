@@ -31,13 +31,13 @@ def laid_beads(moves: Floats, volume: Floats, comments: Comments) -> Beads:
     kind[before_first_layer(moves, comments)] = SKIRT
     of_part = (kind != SKIRT) & (kind != SUPPORT)
     lower, upper = np.minimum(moves[:, Z0], moves[:, Z1]), np.maximum(moves[:, Z0], moves[:, Z1])
-    top, layer = layers(lower, upper, of_part, lines)
+    length = np.hypot(moves[:, X1] - moves[:, X0], moves[:, Y1] - moves[:, Y0])
+    top, layer = layers(lower, upper, length, of_part, lines)
     height = heights(comments.height.at(lines, np.nan), top, layer, of_part)
     if (of_part & (height <= 0)).any():
         first = lines[of_part & (height <= 0)][0]
         raise PrintersError(f"line {first} of the G-code lays down plastic at or below the bed")
     height = np.where(height > 0, height, np.nan)  # purge below the bed, beside it
-    length = np.hypot(moves[:, X1] - moves[:, X0], moves[:, Y1] - moves[:, Y0])
     beads = Beads(
         start=np.ascontiguousarray(moves[:, (X0, Y0)]),
         end=np.ascontiguousarray(moves[:, (X1, Y1)]),

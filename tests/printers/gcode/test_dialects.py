@@ -297,10 +297,14 @@ def test_objects_printed_one_after_the_other_share_their_layers(
     np.testing.assert_allclose(beads.height, [0.2, 0.1, 0.2, 0.1])
 
 
-def test_a_spiral_vase_is_refused_by_its_line(read: Callable[..., GCode]) -> None:
-    turn = "".join(f"G1 X{x} Z{0.2 + 0.01 * x:.2f} E1\n" for x in range(1, 30))
-    with pytest.raises(PrintersError, match=r"rises through layers .*\(line 5 of.*spiral vase"):
-        read(f"M83\nG1 Z.2\nG1 X1 Y9 E1\n{turn}")
+@pytest.mark.parametrize("level", ["", "G1 X0.5 E.01\n"], ids=["steady", "level at its end"])
+def test_a_spiral_vase_is_refused_by_its_line(read: Callable[..., GCode], level: str) -> None:
+    """PrusaSlicer's loops rise up to their layer and may end level."""
+    loop = "G1 X9 Z{0:.3f} E1\nG1 X9 Y9 Z{1:.3f} E1\nG1 X0 Y0 Z{2:.3f} E1\n" + level
+    tops = [0.2 + 0.3 * turn for turn in range(5)]
+    loops = "".join(loop.format(top + 0.1, top + 0.2, top + 0.3) for top in tops)
+    with pytest.raises(PrintersError, match=r"the nozzle rises .*\(line 4 of.*spiral vase"):
+        read(f"M83\nG1 Z.2\nG1 Y9 E1\n{loops}")
 
 
 def test_a_seam_that_is_ramped_within_its_layer_is_put_into_it(read: Callable[..., GCode]) -> None:
