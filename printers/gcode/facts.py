@@ -48,6 +48,8 @@ class Facts:
             self.settings[setting[1]] = setting[2]
 
     def _take_sentence(self, text: str) -> None:
+        if text == "FLAVOR:UltiGCode":
+            self.settings["use_volumetric_e"] = "1"  # of Cura: E is a volume
         if self.slicer is None:
             found = next((found for form in _SLICERS if (found := form.search(text))), None)
             if found:

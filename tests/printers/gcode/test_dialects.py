@@ -259,6 +259,11 @@ def test_volumetric_extrusion_that_only_the_settings_state_is_understood(
     assert code.filament_length == pytest.approx((9 + 1.231) / AREA)
 
 
+def test_curas_dialect_of_volumes_is_understood(read: Callable[..., GCode]) -> None:
+    code = read(CURA.replace("FLAVOR:Marlin", "FLAVOR:UltiGCode"))
+    assert code.beads.volume[1] == pytest.approx(0.4)
+
+
 def test_filament_that_does_not_fit_the_statement_is_told(read: Callable[..., GCode]) -> None:
     code = read(PRUSA.replace("used [mm] = 1.23", "used [mm] = 2.46"))
     assert "lays down 1 mm of filament, and its slicer states 2 mm" in code.notes[0]

@@ -40,4 +40,5 @@ def test_a_dropped_setting_is_named() -> None:
 def test_what_newer_versions_call_otherwise_is_the_same() -> None:
     key = "ensure_vertical_shell_thickness"
     assert not list(differences({key: "1"}, {key: "enabled"}))
+    assert not list(differences({key: "1"}, {}))
     assert list(differences({key: "1"}, {key: "disabled"}))
