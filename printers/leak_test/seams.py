@@ -20,11 +20,13 @@ from printers.model import Opening
 LOSSES = (0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5)
 """mm that are tried, by bisection: three of them."""
 
+CELLS_A_LINE = 5
+"""With fewer, the loss that opens a leak moves by more than one step."""
 
-def seam_tolerance(
-    beads: Beads, openings: Sequence[Opening], voxel: float, line_width: float
-) -> SeamTolerance:
-    """Bisect the losses for the largest that opens no leak."""
+
+def seam_tolerance(beads: Beads, openings: Sequence[Opening], line_width: float) -> SeamTolerance:
+    """Bisect the losses for the largest that opens no leak, on cells of a fifth of a line."""
+    voxel = line_width / CELLS_A_LINE
     low, high, tried = -1, len(LOSSES), []
     while high - low > 1:
         middle = (low + high) // 2

@@ -19,7 +19,6 @@ from printers.leak_test.plugs import cavity_start, fresh_marks
 from printers.model import Opening
 
 
-
 @dataclass(frozen=True, eq=False)
 class WidestPath:
     """A bottleneck path.
