@@ -141,7 +141,13 @@ def _least_plastic(share, ends, thickness, ny, nx):  # type: ignore[no-untyped-d
     of a cell.
     """
     layer = ny * nx
-    most = int(math.ceil(UNITS * FULL * (2 + 2 * thickness.max()))) + 2
+    offsets = np.zeros(27, dtype=np.int64)
+    flats = np.zeros(27)
+    for number in range(27):
+        dy, dx = number // 3 % 3 - 1, number % 3 - 1
+        offsets[number] = (number // 9 - 1) * layer + dy * nx + dx
+        flats[number] = dx * dx + dy * dy
+    most = math.ceil(UNITS * FULL * (2 + 2 * thickness.max())) + 2
     head = np.full(most, -1, dtype=np.int64)
     cells = np.empty(1 << 16, dtype=np.int32)
     after = np.empty(1 << 16, dtype=np.int32)
@@ -173,13 +179,12 @@ def _least_plastic(share, ends, thickness, ny, nx):  # type: ignore[no-untyped-d
                 break
         k = cell // layer
         for number in range(27):
-            dz, dy, dx = number // 9 - 1, number // 3 % 3 - 1, number % 3 - 1
-            beside = cell + dz * layer + dy * nx + dx
-            if beside < 0 or beside >= len(share) or ends[beside] == CLOSED:
+            beside = cell + offsets[number]
+            if beside < 0 or beside >= len(share) or distance[beside] <= now:
                 continue
-            if distance[beside] <= now:
+            if ends[beside] == CLOSED:
                 continue
-            flat = dx * dx + dy * dy
+            dz, flat = number // 9 - 1, flats[number]
             if dz == 0:
                 cost = 0.5 * math.sqrt(flat) * (share[cell] + share[beside])
             else:
@@ -208,8 +213,7 @@ def _least_plastic(share, ends, thickness, ny, nx):  # type: ignore[no-untyped-d
         path.clear()
         return np.array([0])[:0]
     while origin[cell] != 255:
-        number = origin[cell]
-        cell -= (number // 9 - 1) * layer + (number // 3 % 3 - 1) * nx + number % 3 - 1
+        cell -= offsets[origin[cell]]
         path.append(np.int64(cell))
     return np.array(path)
 

@@ -18,8 +18,8 @@ SIZE = 9.0  # inches
 DOTS = 110
 ROUND = 8  # straight pieces of a bead's round end
 
-AIR_COLOURS = ("#f5f5f0", "#9ecae1", "#ffffff", "#bdbdbd")
-AIR_NAMES = ("void between beads", "air of the cavity", "air outside", "plug")
+AIR_COLOURS = ("#e8e0d0", "#9ecae1", "#ffffff", "#bdbdbd", "#f4a3a3")
+AIR_NAMES = ("beads", "air of the cavity", "air outside", "plug", "void between beads")
 BEAD_COLOURS = {
     "external perimeter": "#d95f02",
     "perimeter": "#fdae6b",
@@ -120,7 +120,7 @@ def _draw_air(axes: Any, view: LayerView) -> list[Any]:
 def _outlines(view: LayerView) -> list[Floats]:
     """Outline (n, 2) of every bead in the part's coordinates: a rectangle with round ends."""
     outlines = _rounded(view.beads)
-    height = np.full(outlines.shape[:2] + (1,), view.bottom)
+    height = np.full((*outlines.shape[:2], 1), view.bottom)
     points = np.concatenate([outlines, height], axis=2).reshape(-1, 3)
     return list(moved(view.to_part, points)[:, :2].reshape(outlines.shape))
 

@@ -107,7 +107,8 @@ class LayerView:
         bottom, top: Of the layer above the bed, mm.
         corner: Of the first cell of `air`, mm, in the frame of the G-code.
         voxel: Side of a cell, mm.
-        air: 0 within beads or voids between them, 1 air of the cavity, 2 air outside, 3 plug.
+        air: 0 within beads, 1 air of the cavity, 2 air outside, 3 plug, 4 voids between beads and
+            the narrow part of a leak.
             *Shape:* `(ny, nx)`
         path: Points of the path, mm, in the frame of the G-code.
             *Shape:* `(n, 3)`
