@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from bellows_design.cli.answer import DONE, REFUSED, Answer
 from bellows_design.cli.checking.opening_options import parse_openings
 from bellows_design.cli.checking.options import CheckOptions
-from bellows_design.cli.checking.sliced import draw
+from bellows_design.cli.checking.sliced import drawn
 from bellows_design.cli.checking.subject import opening_dict
 from bellows_design.errors import DesignError
 from bellows_design.reports.check import report_table
@@ -38,8 +38,6 @@ def check_gcode(options: CheckOptions) -> Answer:
         )
         progress.stage("leak test")
         found = leak_test(gcode.beads, openings, profile)
-        if options.picture is not None:
-            draw(found, options.picture)
     report = PrintabilityReport(profile.name, found.rules)
     slicer = " ".join(each for each in (gcode.slicer, gcode.slicer_version) if each)
     notes = (
@@ -47,6 +45,7 @@ def check_gcode(options: CheckOptions) -> Answer:
         *(_said(opening) for opening in openings),
         *gcode.notes,
         *found.notes,
+        *drawn(found, options.picture),
     )
     content = {
         "file": options.name,

@@ -13,6 +13,7 @@ from bellows_design.cli.checking.subject import Subject
 
 if TYPE_CHECKING:
     from bellows_design.progress import Progress
+    from printers.leak_test.result import LeakTest
     from printers.orientation.turning import Turning
     from printers.report import PrintabilityReport
     from printers.slicing.finding import Slicer
@@ -66,24 +67,28 @@ def _tested(
         found = check_sliced(subject.model, subject.profile, turning, slicer, folder)
         if folder is not None and options.keep_gcode is not None:
             _keep(folder / "part.gcode", options.keep_gcode)
-    if options.picture is not None:
-        draw(found.leaks, options.picture)
     said = (
         f"sliced with {found.sliced.slicer} {found.sliced.version}, profile "
         f"{found.sliced.profile_digest[:16]}",
         *found.notes,
+        *drawn(found.leaks, options.picture),
     )
     return replace(report, rules=(*report.rules, *found.leaks.rules)), said, found.to_dict()
 
 
-def draw(leaks: Any, path: Path) -> None:
-    """Write the picture of the layer in question."""
-    from printers.leak_test.picture import draw_layer
-
+def drawn(leaks: LeakTest, path: Path | None) -> tuple[str, ...]:
+    """Write the picture of the layer in question, if one is wanted; a note where there is none."""
+    if path is None:
+        return ()
+    if leaks.view is None:
+        return ("no picture was drawn: no path leads to the outside",)
     from bellows_design.files.atomic import replacing
+    from printers.leak_test.picture import leak_picture
 
+    content = leak_picture(leaks)
     with replacing(path) as temporary:
-        draw_layer(leaks, temporary)
+        temporary.write_bytes(content)
+    return (f"{path}: the layer with {'the leak' if leaks.leaks else 'the thinnest seal'}",)
 
 
 def _keep(made: Path, path: Path) -> None:
