@@ -211,7 +211,7 @@ def test_without_a_slicer_the_geometric_rules_stand_and_that_is_said(
 def test_the_stl_of_a_design_gets_the_verdicts_of_the_design(
     bellows: Bellows, name: str, tmp_path: Path
 ) -> None:
-    """Where no wall is declared; what stands beside the rules is what a file cannot declare."""
+    """Rule by rule, but for those on what only a design declares; Prototype 1 fails either way."""
     path = tmp_path / f"{name}.stl"
     assert bellows("design", name, "-o", str(path))[0] == 0
     of_design, of_file = answer(bellows, name)[1], answer(bellows, str(path))[1]
@@ -222,4 +222,4 @@ def test_the_stl_of_a_design_gets_the_verdicts_of_the_design(
         if each["rule"] in kept and each["where"] != "port.wall"
     ]
     assert [compared(each) for each in of_file["rules"]] == undeclared
-    assert of_file["verdict"] == of_design["verdict"] == "pass"
+    assert of_file["verdict"] == of_design["verdict"]
