@@ -18,7 +18,10 @@ from printers.openings.inner_surface import Cavity, find_cavities
 from printers.openings.mouth import Mouth, mouths_of
 
 CLEARLY_WIDER = 2.0
-"""Ratio of diameters from which the widest mouth is the opening, and the others are leaks."""
+"""Ratio from which the widest mouth is the opening, and the others are leaks.
+
+Of the pins that enter: a slit has the area of a port and lets no tube in.
+"""
 
 MINOR = 0.1
 """Share of the largest cavity's air below which another one is a blind hole, such as a screw's."""
@@ -86,7 +89,7 @@ def only_opening(mouths: Mouths) -> FoundOpenings:
         return FoundOpenings((), (f"no cavity with a mouth to the outside was found{sealed}",))
     _require_one_cavity(mouths)
     first, *others = mouths.of_cavities[0]
-    if others and first.diameter < CLEARLY_WIDER * others[0].diameter:
+    if others and first.radius < CLEARLY_WIDER * others[0].radius:
         raise PrintersError(
             f"the cavity has {1 + len(others)} mouths: {_listed([first, *others])}; name what is "
             "meant to be open with --opening X,Y,Z, once for each"

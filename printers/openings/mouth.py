@@ -67,7 +67,7 @@ def mouths_of(surface: Surface, cavity: Cavity) -> tuple[Mouth, ...]:
     """The mouths of a cavity, the widest first; rims that enclose nothing are none."""
     found = (_mouth(surface, cavity, rim) for rim in cavity.rims)
     mouths = [mouth for mouth in found if mouth is not None]
-    return tuple(sorted(mouths, key=lambda mouth: -mouth.area))
+    return tuple(sorted(mouths, key=lambda mouth: -mouth.radius))
 
 
 def _mouth(surface: Surface, cavity: Cavity, rim: Ints) -> Mouth | None:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 import pytest
+from broken_parts import BROKEN
 from manifold3d import Manifold
 from small_solids import SEGMENTS, arrays, bellows, block, bore, hollow_box
 
@@ -161,3 +162,26 @@ def test_an_open_mesh_has_no_inside() -> None:
         find_mouths(merged_surface(vertices, triangles[1:]))
     with pytest.raises(PrintersError, match="normals outwards"):
         find_mouths(merged_surface(vertices, triangles[:, ::-1]))
+
+
+@pytest.mark.parametrize("width", [0.1, 0.2, 0.4])
+def test_a_long_slit_is_a_leak_whatever_its_area(width: float) -> None:
+    """8 mm long it has the area of a port of 1 to 2 mm."""
+    part = hollow_box() - block((8.0, width, 4.0), (3.0, 5.0, 8.0))
+    found = found_on(part)
+    (opening,) = found.openings
+    np.testing.assert_allclose(opening.centre, (0.0, 5.2, 5.2), atol=1e-5)
+    assert any("taken for leaks" in note for note in found.notes)
+
+
+NOT_CLOSED = {"normals inverted", "triangle the other way round", "triangle left out"}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", [name for name in BROKEN if name not in NOT_CLOSED])
+def test_the_port_of_a_broken_part_is_found_whatever_its_fault(name: str) -> None:
+    """So that the rule for the fault can name it."""
+    part = BROKEN[name]()
+    (opening,) = only_opening(find_mouths(merged_surface(part.vertices, part.triangles))).openings
+    np.testing.assert_allclose(opening.centre, part.opening.centre, atol=0.05)
+    assert opening.radius <= part.opening.radius + 0.05
