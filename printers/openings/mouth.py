@@ -87,9 +87,14 @@ def _mouth(surface: Surface, cavity: Cavity, rim: Ints) -> Mouth | None:
     pin = radius if room > radius - 2 * FACET_TOLERANCE else room
     height = float(np.ptp(flat_start[:, 2]))
     return Mouth(
-        _triple(centre), _triple(axis), _rounded(min(pin, LARGEST_LENGTH)), float(distances.max()), area,
-        is_round, height <= 2 * PLANE,
-    )  # fmt: skip
+        centre=_triple(centre),
+        direction=_triple(axis),
+        radius=_rounded(min(pin, LARGEST_LENGTH)),
+        reach=float(distances.max()),
+        area=area,
+        is_round=is_round,
+        is_plane=height <= 2 * PLANE,
+    )
 
 
 def _triple(vector: Floats) -> tuple[float, float, float]:

@@ -65,7 +65,8 @@ def _binary_corners(content: bytes) -> tuple[Floats, tuple[str, ...]]:
     require_few(count)
     notes = _after_last(content[needed:], count)
     corners = np.frombuffer(content, _FACET, count, HEADER)["corners"]
-    return corners.astype(np.float64), notes
+    with np.errstate(invalid="ignore"):  # signalling NaN
+        return corners.astype(np.float64), notes
 
 
 def _after_last(rest: bytes, count: int) -> tuple[str, ...]:

@@ -58,10 +58,10 @@ def model_xml(objects: str, build: str, unit: str | None = "millimeter") -> str:
     )
 
 
-def package(xml: str | bytes, **others: str) -> bytes:
+def package(xml: str | bytes, packing: int = zipfile.ZIP_DEFLATED, **others: str) -> bytes:
     """A 3MF file with the model file `xml`, and others by their names."""
     content = BytesIO()
-    with zipfile.ZipFile(content, "w", zipfile.ZIP_DEFLATED) as archive:
+    with zipfile.ZipFile(content, "w", packing) as archive:
         archive.writestr(MODEL, xml)
         for name, text in others.items():
             archive.writestr(name, text)

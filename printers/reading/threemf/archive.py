@@ -6,6 +6,7 @@ are unpacked in pieces, so that a bomb ends at the limit.
 
 from __future__ import annotations
 
+import struct
 import zipfile
 import zlib
 from collections.abc import Iterator
@@ -20,6 +21,9 @@ PIECE = 2**20  # bytes
 _END, _END_64, _LOCATOR_64 = b"PK\x05\x06", b"PK\x06\x06", b"PK\x06\x07"
 _END_SIZE, _END_64_SIZE, _LOCATOR_SIZE = 22, 56, 20
 _LONGEST_COMMENT = 65_535
+_PACKINGS = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)
+_DAMAGE = (zipfile.BadZipFile, zlib.error, struct.error, EOFError, OSError, ValueError, IndexError)
+"""What zipfile raises for archives that are damaged; sizes and places in them are not checked."""
 
 
 @dataclass
@@ -33,7 +37,7 @@ class Package:
         _require_short_list(self.content)
         try:
             self._archive = zipfile.ZipFile(BytesIO(self.content))
-        except (zipfile.BadZipFile, ValueError, NotImplementedError, OverflowError):
+        except (*_DAMAGE, NotImplementedError):
             raise PrintersError("its archive is damaged") from None
 
     def __contains__(self, name: str) -> bool:
@@ -43,16 +47,20 @@ class Package:
         """The content of a member. Raises PrintersError if there is none, or too much of it."""
         if name not in self:
             raise PrintersError(f"it lacks {name[:80]!r}")
+        if self._archive.NameToInfo[name].compress_type not in _PACKINGS:
+            raise PrintersError(f"its member {name[:80]!r} is packed in a way that 3MF forbids")
         try:
             with self._archive.open(name) as member:
                 while piece := member.read(PIECE):
                     self.unpacked += len(piece)
                     self._require_bounded()
                     yield piece
-        except (zipfile.BadZipFile, zlib.error, EOFError, OSError):
-            raise PrintersError(f"its member {name[:80]!r} is damaged") from None
+        except PrintersError:
+            raise
         except (RuntimeError, NotImplementedError):  # how zipfile says this
-            raise PrintersError(f"its member {name[:80]!r} is encrypted, or packed oddly") from None
+            raise PrintersError(f"its member {name[:80]!r} is encrypted") from None
+        except _DAMAGE:
+            raise PrintersError(f"its member {name[:80]!r} is damaged") from None
 
     def _require_bounded(self) -> None:
         if self.unpacked > LARGEST_FILE:

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import os
+import random
 import re
 import struct
 import tracemalloc
+import zipfile
 from pathlib import Path
 
 import numpy as np
@@ -26,7 +28,9 @@ from printers.errors import PrintersError
 from printers.reading import limits
 from printers.reading.read import read_part
 from printers.reading.step_files.reader import read_step
+from printers.reading.stl import read_stl
 from printers.reading.threemf import archive
+from printers.reading.threemf.reader import read_3mf
 
 VERTICES, TRIANGLES = arrays(hollow_box())
 BINARY, TEXT = binary_stl(VERTICES, TRIANGLES), text_stl(VERTICES, TRIANGLES)
@@ -219,3 +223,44 @@ def test_a_step_reader_without_memory_does_not_end_the_program() -> None:
 def test_what_holds_no_solid_is_refused_by_the_cad_kernel(data: bytes, words: str) -> None:
     with pytest.raises(PrintersError, match=words):
         read_step(STEP % data)
+
+
+READERS = {
+    "binary": (BINARY, read_stl),
+    "text": (TEXT, read_stl),
+    "3mf": (three_mf(VERTICES, TRIANGLES), read_3mf),
+    "3mf, not packed": (
+        package(model_xml(object_xml(1, MESH), '<item objectid="1"/>'), zipfile.ZIP_STORED),
+        read_3mf,
+    ),
+}
+
+
+def damaged(content: bytes, rng: random.Random) -> bytes:
+    """Bytes changed, lost and put in, more often near the ends, where the counts stand."""
+    result = bytearray(content)
+    for _ in range(rng.choice([1, 2, 5, 20])):
+        start, stop = rng.choice([(0, 300), (len(result) - 300, len(result)), (0, len(result))])
+        place = rng.randrange(max(0, start), max(1, min(stop, len(result))))
+        some = bytes(rng.randrange(256) for _ in range(rng.randrange(1, 9)))
+        kind = rng.randrange(4)
+        if kind < 3:
+            result[place : place + (1, 0, len(some))[kind]] = (some[:1], some, b"")[kind]
+        elif rng.random() < 0.2:
+            del result[place:]
+        if len(result) < 100:
+            break
+    return bytes(result)
+
+
+@pytest.mark.parametrize("kind", READERS)
+def test_damage_anywhere_is_a_sentence_or_another_part(kind: str) -> None:
+    content, reader = READERS[kind]
+    rng = random.Random(kind)
+    refused = 0
+    for _ in range(300):
+        try:
+            reader(damaged(content, rng))
+        except PrintersError:
+            refused += 1
+    assert refused > 100
