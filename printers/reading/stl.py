@@ -26,6 +26,7 @@ _TEXT_FACET = re.compile(
     re.IGNORECASE,
 )
 _TEXT_LINE = re.compile(rb"\s*(solid|endsolid)(?![^\s])[^\r\n]*", re.IGNORECASE)
+MOST_SOLIDS = 10_000  # in one text
 _FACETS_AT_ONCE = 20_000
 
 
@@ -94,6 +95,8 @@ def _text_corners(content: bytes) -> tuple[Floats, tuple[str, ...]]:
             place = facet.end()
         elif line := _TEXT_LINE.match(content, place):
             begins = line[1].lower() == b"solid"
+            if solids > MOST_SOLIDS:
+                raise PrintersError(f"it holds more than {MOST_SOLIDS} solids")
             solids, open_solids = solids + begins, open_solids + (1 if begins else -1)
             place = line.end()
         elif not content[place:].strip():

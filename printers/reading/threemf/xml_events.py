@@ -6,8 +6,10 @@ from collections.abc import Callable, Iterable
 from xml.parsers import expat
 
 from printers.errors import PrintersError
+from printers.reading.limits import MOST_TRIANGLES
 
 DEEPEST = 32
+MOST_ELEMENTS = 4 * MOST_TRIANGLES  # a closed mesh has half as many vertices as triangles
 LONGEST_ELEMENT = 2**22  # bytes that are kept until the element ends
 
 Attributes = dict[str, str]
@@ -18,11 +20,13 @@ Begin = Callable[[str, Attributes], None]
 def read_elements(pieces: Iterable[bytes], begin: Begin, end: Callable[[str], None]) -> None:
     """Call `begin` and `end` for each element. Raises PrintersError for what is no plain XML."""
     parser = expat.ParserCreate(namespace_separator=" ")
-    depth = 0
+    depth = count = 0
 
     def start(name: str, attributes: Attributes) -> None:
-        nonlocal depth
-        depth += 1
+        nonlocal depth, count
+        depth, count = depth + 1, count + 1
+        if count > MOST_ELEMENTS:
+            raise PrintersError(f"it holds more than {MOST_ELEMENTS} elements")
         if depth > DEEPEST:
             raise PrintersError(f"its elements are nested more than {DEEPEST} deep")
         begin(name, attributes)

@@ -29,7 +29,7 @@ from printers.reading import limits
 from printers.reading.read import read_part
 from printers.reading.step_files.reader import read_step
 from printers.reading.stl import read_stl
-from printers.reading.threemf import archive
+from printers.reading.threemf import archive, xml_events
 from printers.reading.threemf.reader import read_3mf
 
 VERTICES, TRIANGLES = arrays(hollow_box())
@@ -93,6 +93,7 @@ FLAT = f'<item objectid="1" transform="{"0 " * 12}"/>'
         ),
         (with_first_number(b"nan"), ".stl", "no finite number"),
         (b"solid x\nendsolid x\n" + b" " * 100, ".stl", "holds no triangle"),
+        (b"solid x\nendsolid x\n" * 20_000, ".stl", "more than 10000 solids"),
         (three_mf(VERTICES, TRIANGLES), ".stl", "that of a .3mf file"),
         (BINARY, ".3mf", "does not begin as that of a .3mf file"),
         (BINARY, ".step", "does not begin as that of a .step file"),
@@ -172,6 +173,15 @@ def test_a_zip_bomb_ends_at_the_limit(monkeypatch: pytest.MonkeyPatch, tmp_path:
         assert tracemalloc.get_traced_memory()[1] < 2**24
     finally:
         tracemalloc.stop()
+
+
+def test_many_elements_end_at_the_limit(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """Elements that mean nothing cost time all the same."""
+    path = tmp_path / "part.3mf"
+    path.write_bytes(package(f'<model xmlns="{CORE}">' + "<a/>" * 5000))
+    monkeypatch.setattr(xml_events, "MOST_ELEMENTS", 4000)
+    with pytest.raises(PrintersError, match="more than 4000 elements"):
+        read_part(path)
 
 
 def test_an_archive_with_a_million_members_is_refused_by_the_length_of_its_list() -> None:
