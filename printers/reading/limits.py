@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-LARGEST_FILE = 512 * 2**20
+LARGEST_FILE = 256 * 2**20
 """Bytes of a file, and of everything that is unpacked from it."""
 
-MOST_TRIANGLES = 2_000_000
+MOST_TRIANGLES = 1_000_000
 """Of a part, all its copies counted. What is measured on them takes some kilobytes for each."""
 
 FARTHEST = 1e5

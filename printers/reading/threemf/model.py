@@ -105,10 +105,10 @@ class _Reading:
         self._object = Object("")
 
     def begin(self, name: str, attributes: Attributes) -> None:
-        space, _, tag = name.rpartition(" ")
+        action = _ACTIONS.get(name)
+        tag = name.rpartition(" ")[2]
         if tag in _SHAPES:
             raise PrintersError(f"it holds a {tag}, which is not read: only triangles are")
-        action = _ACTIONS.get(tag) if space == CORE else None
         if action is not None:
             try:
                 action(self, attributes)
@@ -165,12 +165,12 @@ class _Reading:
 
 
 _ACTIONS = {
-    "model": _Reading._begin_model,
-    "object": _Reading._begin_object,
-    "vertex": _Reading._add_vertex,
-    "triangle": _Reading._add_triangle,
-    "component": _Reading._add_component,
-    "item": _Reading._add_item,
+    f"{CORE} model": _Reading._begin_model,
+    f"{CORE} object": _Reading._begin_object,
+    f"{CORE} vertex": _Reading._add_vertex,
+    f"{CORE} triangle": _Reading._add_triangle,
+    f"{CORE} component": _Reading._add_component,
+    f"{CORE} item": _Reading._add_item,
 }
 
 

@@ -202,7 +202,7 @@ def test_pipes_devices_folders_and_huge_files_are_no_files(tmp_path: Path) -> No
         ("pipe.stl", "pipe or a device"),
         ("folder.stl", "folder"),
         ("device.stl", "pipe or a device"),
-        ("huge.stl", "at most 512 MiB"),
+        ("huge.stl", "at most 256 MiB"),
     ):
         with pytest.raises(PrintersError, match=words):
             read_part(tmp_path / name)
