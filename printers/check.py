@@ -18,11 +18,19 @@ from printers.rule_table import RULES
 from printers.rules.airtightness import check_airtightness
 from printers.rules.envelope import check_bed_contact, check_build_volume, check_cross_section
 from printers.rules.gaps import check_declared_gaps, check_measured_gaps
-from printers.rules.integrity import check_one_body, check_self_intersection, check_watertight
+from printers.rules.integrity import (
+    check_one_body,
+    check_self_intersection,
+    check_slivers,
+    check_watertight,
+)
 from printers.rules.opening_walls import check_opening_walls
 from printers.rules.openings import check_openings
 from printers.rules.overhangs import check_overhangs
+from printers.rules.passage import check_air_passage
+from printers.rules.printing import check_layer_height, check_plastic
 from printers.rules.sealing_walls import check_sealing_walls
+from printers.rules.thickness import check_thickness
 from printers.rules.walls import (
     check_declared_walls,
     check_measured_walls,
@@ -34,6 +42,8 @@ Rule = Callable[[MeasuredPart], Iterator[RuleResult]]
 RULES_FOR_ANY_MESH: tuple[Rule, ...] = (
     check_watertight,
     check_self_intersection,
+    check_slivers,
+    check_layer_height,
     check_build_volume,
     check_cross_section,
     check_bed_contact,
@@ -50,10 +60,19 @@ RULES_FOR_SOLIDS: tuple[Rule, ...] = (
     check_measured_gaps,
     check_overhangs,
     check_openings,
+    check_thickness,
+    check_air_passage,
+    check_plastic,
 )
 """They measure within the material, and need a mesh that bounds some."""
 
-NEVER_SILENT = ("airtightness", "wall_multiple_measured", "minimum_lines", "minimum_layers")
+NEVER_SILENT = (
+    "airtightness",
+    "wall_multiple_measured",
+    "minimum_lines",
+    "minimum_layers",
+    "thinnest_place",
+)
 """Rules that fail where nothing can be measured: a report without them could pass for good."""
 
 
@@ -67,12 +86,17 @@ def check_printability(model: PrintedModel, profile: PrinterProfile) -> Printabi
 
 
 def _completed(result: RuleResult, profile: PrinterProfile) -> RuleResult:
-    """The result with what the table says of its rule, and the severity that the profile sets."""
+    """The result with what the table says of its rule, and the severity that the profile sets.
+
+    A rule may warn of less than what its severity is for; a profile that sets one means both.
+    """
     severity = profile.severity(result.rule)
-    changed = result.rule in profile.rules and result.verdict != "pass"
+    decided = result.verdict == "fail" or (
+        result.verdict == "warn" and result.rule in profile.rules
+    )
     return replace(
         result,
-        verdict=severity if changed else result.verdict,
+        verdict=severity if decided else result.verdict,
         severity=severity,
         source=RULES[result.rule].source,
     )

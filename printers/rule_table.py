@@ -86,8 +86,9 @@ _ROWS = (
          "minimum_wall", "mm", _LINES, True),
     Rule("minimum_layers", "the weakest way out of the cavity, nearly upright, crosses enough "
          "layers", "fail", "minimum_floor", "mm", _LAYERS, True),
-    Rule("thinnest_place", "no place of the part is thinner than one line: a slicer leaves it out",
-         "fail", "line_width", "mm", "PrusaSlicer issue 5357; CuraEngine issue 431", True),
+    Rule("thinnest_place", "no place of the part is thinner than one line, or one layer: a slicer "
+         "leaves it out", "warn", "line_width", "mm",
+         "PrusaSlicer issue 5357; CuraEngine issue 431: walls of one nozzle are dropped"),
     Rule("airtightness", "with the openings plugged there is one cavity, closed everywhere else",
          "fail", None, "", _TOPOLOGY, True),
     Rule("air_passage", "air reaches every part of the cavity through passages that stay open",

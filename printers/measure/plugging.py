@@ -35,6 +35,13 @@ class Sealing:
         before = self.part.surface.euler_characteristic()
         return (self.closed.surface.euler_characteristic() - before) // 2
 
+    @property
+    def leaks(self) -> bool:
+        """Whether the plugs closed openings of the part, and yet no cavity closes."""
+        joined = len(self.closed.bodies) <= len(self.part.bodies)
+        closed = bool(self.part.voids or self.closed.voids)
+        return bool(self.openings) and joined and not closed and self.openings_closed > 0
+
 
 def seal(part: Shells, openings: Sequence[Opening]) -> Sealing:
     """Plug the openings of a part. Raises PrintersError if its surface bounds no solid."""

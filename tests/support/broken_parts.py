@@ -37,7 +37,7 @@ class BrokenPart:
         opening: The port.
         rule: Name of the rule that must find the fault; empty for a sound part.
         place: Lower and upper corner of the box around the fault, mm.
-        verdict: Of the rule.
+        verdict: Of the rule: "warn" where what is lost is no wall of the cavity.
     """
 
     vertices: Floats
@@ -119,7 +119,7 @@ def vanishing_fin(thickness: float = 0.25) -> BrokenPart:
     """A fin outside, on the box's roof, thinner than a line: a slicer leaves it out."""
     fin = block((4.0, thickness, 3.0), (5.0, 5.0, 10.3))
     place = ((5.0, 5.0, 10.4), (9.0, 5.0 + thickness, 13.3))
-    return BrokenPart(*arrays(hollow_box() + fin), BOX_PORT, "thinnest_place", place)
+    return BrokenPart(*arrays(hollow_box() + fin), BOX_PORT, "thinnest_place", place, "warn")
 
 
 def two_and_a_half_lines() -> BrokenPart:

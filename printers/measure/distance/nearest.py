@@ -34,16 +34,18 @@ def inscribed_diameters(
 ) -> tuple[Floats, Flags]:
     """Diameters (k,) mm of the balls that touch the surface from within at `points` (k, 3).
 
-    `faces` (m, 3) are the unit normals of the triangles. A ball lies on the inner side of the `normals` (k, 3) and touches an opposite face. It begins
-    with the diameter `across` (k,), which must not lead out of the material, and shrinks to the
-    ball through the nearest opposite point that it holds, until it holds none: Ma, Bae & Choi, "3D
-    medial axis point approximation using nearest neighbors and the normal field", Visual Computer
-    28 (2012). The flags (k,) tell which balls shrank.
+    `faces` (m, 3) are the unit normals of the triangles. A ball lies on the inner side of the
+    `normals` (k, 3) and touches an opposite face. It begins with the diameter `across` (k,), which
+    must not lead out of the material, and shrinks to the ball through the nearest opposite point
+    that it holds, until it holds none: Ma, Bae & Choi, "3D medial axis point approximation using
+    nearest neighbors and the normal field", Visual Computer 28 (2012). The flags (k,) tell which
+    balls shrank.
     """
-    arguments = tree.corners, tree.order, tree.starts, tree.lower, tree.upper
-    vectors = [np.ascontiguousarray(values) for values in (faces, points, normals)]
-    result = np.ascontiguousarray(across).copy()
-    _shrink(*arguments, *vectors, result)
+    result = np.array(across)
+    _shrink(
+        tree.corners, tree.order, tree.starts, tree.lower, tree.upper,
+        faces, np.ascontiguousarray(points), np.ascontiguousarray(normals), result,
+    )  # fmt: skip
     return result, np.asarray(result < across)
 
 
@@ -110,7 +112,8 @@ def _nearest(
 ) -> float:
     """Squared distance of the nearest surface below `bound`, at `found`; else the bound.
 
-    With a normal that is not zero only what lies and looks against it, seen from the centre, counts.
+    With a normal that is not zero only what lies against it, seen from the centre, and looks
+    against it, counts.
     """
     first_leaf = len(starts) - 2
     stack = np.empty(DEEPEST_TREE + 2, dtype=np.int64)

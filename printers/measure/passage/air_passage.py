@@ -13,14 +13,21 @@ from dataclasses import dataclass
 import numpy as np
 
 from printers.arrays import Flags, Floats, Ints
+from printers.measure.distance.nearest import nearest_distances
 from printers.measure.passage.grid import (
     Grid,
     coarse_distances,
-    exact_distances,
     grid_around,
     inside,
 )
-from printers.measure.passage.watershed import FIRST, SECOND, pass_between, passes, regions_before
+from printers.measure.passage.watershed import (
+    FIRST,
+    NOTHING,
+    SECOND,
+    pass_between,
+    passes,
+    regions_before,
+)
 from printers.measure.surface import Surface
 from printers.model import Opening
 
@@ -41,6 +48,12 @@ LEVELS = 2
 
 AROUND = 3
 """Steps that a finer grid reaches around its pass."""
+
+BESIDE = 1.8
+"""Steps that the axis of a passage may lie beside the points that show it: to a corner."""
+
+MOST_JOINTS = 6
+"""Places that join two regions of which the widest is looked for."""
 
 THICKEST_SKIN = 1.0
 """mm. What is narrower than a step shows as material; a way leads through no more than this."""
@@ -75,8 +88,14 @@ class _Air:
         return result
 
     def exact(self, grid: Grid) -> Floats:
-        """Distance to the wall of every point."""
-        return exact_distances(self.part, grid, self.within(grid))
+        """Distance to the wall in the air; in the material negative that to the cavity, so that
+        what lies under the outside is no way; -inf outside."""
+        within = self.within(grid)
+        material = ~within & inside(self.part, grid)
+        field = np.full(grid.shape, -np.inf)
+        field[within] = nearest_distances(self.part.tree, grid.points(within))
+        field[material] = -nearest_distances(self.cavity.tree, grid.points(material))
+        return field
 
 
 def narrowest_passage(
@@ -115,9 +134,7 @@ def _bore(grid: Grid, opening: Opening) -> Flags:
     a, b, c = opening.direction
     along = a * x + b * y + c * z
     beside = (x - along * a) ** 2 + (y - along * b) ** 2 + (z - along * c) ** 2
-    return np.asarray(
-        (beside < opening.radius**2) & (np.abs(along) <= opening.radius + grid.step)
-    )
+    return np.asarray((beside < opening.radius**2) & (np.abs(along) <= opening.radius + grid.step))
 
 
 def _in_pieces(within: Flags, marks: Ints, least: int) -> bool:
@@ -139,50 +156,113 @@ def _grid_of(air: _Air) -> Grid:
     return grid_around(lower, upper, max(STEP, (volume / MOST_POINTS) ** (1 / 3)))
 
 
-def _narrowest(
-    air: _Air, grid: Grid, field: Floats, found: Ints, wide: float
-) -> AirPassage | None:
+def _narrowest(air: _Air, grid: Grid, field: Floats, found: Ints, wide: float) -> AirPassage | None:
     """The narrowest of the passes, measured closely where it may be narrower than `wide`."""
     best: AirPassage | None = None
     for number in found[np.argsort(field.ravel()[found], kind="stable")]:
-        rough = _refined(air, grid, field, int(number), 0)
+        rough = _rough(grid, field, int(number))
         at_least = rough.width - rough.uncertainty
         if best is not None and at_least >= best.width:
             break  # and so are all that follow
-        close = rough if at_least > wide else _refined(air, grid, field, int(number), LEVELS)
+        close = rough if at_least > wide else _widest_joint(air, grid, field, int(number))
         if best is None or close.width < best.width:
             best = close
     return best
 
 
-def _refined(air: _Air, grid: Grid, field: Floats, number: int, levels: int) -> AirPassage:
-    """The pass measured on a finer grid around it, which joins the same regions."""
+def _rough(grid: Grid, field: Floats, number: int) -> AirPassage:
+    """The pass as the grid shows it."""
     index = tuple(int(i) for i in np.unravel_index(number, field.shape))
-    place, height = grid.point(index), float(field[index])
+    width = max(0.0, 2 * float(field[index]))
+    return AirPassage(width, grid.point(index), float(np.sqrt(3)) * grid.step)
+
+
+def _widest_joint(air: _Air, grid: Grid, field: Floats, number: int) -> AirPassage:
+    """Of all the places that join the two regions which meet at the pass, the widest.
+
+    On the first grid a narrow joint may show as wide as another; so one after the other is
+    measured and closed, until none is left.
+    """
+    sides = _meeting(field, number)
+    joints = [_refined(air, grid, field, number, sides, LEVELS)]
+    for _ in range(MOST_JOINTS - 1):
+        near = np.linalg.norm(_points(grid) - joints[-1].place, axis=-1) <= 2 * grid.step
+        field = np.where(near, -np.inf, field)
+        following = pass_between(field, np.where(near, 0, sides), -THICKEST_SKIN)
+        if following is None or field.ravel()[following] <= -grid.step:
+            break
+        joints.append(_refined(air, grid, field, following, sides, LEVELS))
+    return max(joints, key=lambda joint: joint.width)
+
+
+def _refined(
+    air: _Air, grid: Grid, field: Floats, number: int, sides: Ints, levels: int
+) -> AirPassage:
+    """The pass between two `sides` measured on finer grids around it."""
+    rough = _rough(grid, field, number)
     if not levels:
-        return AirPassage(max(0.0, 2 * height), place, float(np.sqrt(3)) * grid.step)
-    finer = grid_around(
-        place - AROUND * grid.step, place + AROUND * grid.step, grid.step / REFINEMENT
-    )
-    marks = _marks_on(finer, grid, regions_before(field, number), index)
+        return rough
+    reach = AROUND * grid.step
+    finer = grid_around(rough.place - reach, rough.place + reach, grid.step / REFINEMENT)
+    marks = _grown(field, number, sides)[_nearest(grid, finer)]
     exact = air.exact(finer)
     better = pass_between(exact, marks, -THICKEST_SKIN)
     if better is None:
-        return _refined(air, grid, field, number, 0)
-    return _refined(air, finer, exact, better, levels - 1)
+        return rough
+    return _refined(air, finer, exact, better, marks, levels - 1)
 
 
-def _marks_on(finer: Grid, grid: Grid, regions: Ints, index: tuple[int, ...]) -> Ints:
-    """Marks of the two largest regions that meet at the pass, on the points of the finer grid."""
-    around = tuple(slice(max(0, i - 1), i + 2) for i in index)
-    numbers, counts = np.unique(regions[around], return_counts=True)
+def _meeting(field: Floats, number: int) -> Ints:
+    """Marks of the two largest regions that meet at a pass."""
+    regions = regions_before(field, number)
+    index = np.unravel_index(number, field.shape)
+    around = tuple(slice(max(0, int(i) - 1), int(i) + 2) for i in index)
     sizes = np.bincount(regions.ravel())
-    meeting = sorted(numbers[numbers > 0], key=lambda region: -sizes[region])[:2]
-    points = finer.points(np.ones(finer.shape, dtype=bool))
-    nearest = np.rint((points - grid.origin) / grid.step).astype(int)
-    nearest = nearest.clip(0, np.array(grid.shape) - 1)
-    region = regions[tuple(nearest.T)].reshape(finer.shape)
-    marks = np.zeros(finer.shape, dtype=np.int64)
-    for mark, number in zip((FIRST, SECOND), meeting, strict=False):
-        marks[region == number] = mark
-    return marks
+    touching = np.unique(regions[around])
+    marks = np.zeros(len(sizes), dtype=np.int64)
+    ranked = sorted(touching[touching > 0], key=lambda region: -sizes[region])
+    for mark, region in zip((FIRST, SECOND), ranked, strict=False):
+        marks[region] = mark
+    return marks[regions]
+
+
+def _grown(field: Floats, number: int, sides: Ints) -> Ints:
+    """The marks of the sides on all of the regions that they had become before the pass."""
+    regions = regions_before(field, number)
+    marks = np.zeros(int(regions.max()) + 1, dtype=np.int64)
+    np.maximum.at(marks, regions.ravel(), sides.ravel())
+    marks[0] = NOTHING
+    return _widened(np.where(sides > 0, sides, marks[regions]), field.shape, number)
+
+
+def _widened(marks: Ints, shape: tuple[int, ...], number: int) -> Ints:
+    """Around a pass, the marks on all points near to one side and nearer than to the other.
+
+    The axis of a passage may lie beside the points that show it.
+    """
+    from scipy.ndimage import distance_transform_edt
+
+    index = np.unravel_index(number, shape)
+    around = tuple(slice(max(0, int(i) - AROUND - 1), int(i) + AROUND + 2) for i in index)
+    near = marks[around]
+    to_first, to_second = (
+        distance_transform_edt(near != mark)
+        if (near == mark).any()
+        else np.full(near.shape, np.inf)
+        for mark in (FIRST, SECOND)
+    )
+    widened = marks.copy()
+    widened[around] = np.where((to_first < to_second) & (to_first <= BESIDE), FIRST, NOTHING)
+    widened[around] += np.where((to_second < to_first) & (to_second <= BESIDE), SECOND, NOTHING)
+    return widened
+
+
+def _nearest(grid: Grid, finer: Grid) -> tuple[Ints, ...]:
+    """Numbers of the points of a grid that lie nearest to those of a finer one."""
+    index = np.rint((_points(finer) - grid.origin) / grid.step).astype(np.int64)
+    return tuple(np.moveaxis(index.clip(0, np.array(grid.shape) - 1), -1, 0))
+
+
+def _points(grid: Grid) -> Floats:
+    """(nx, ny, nz, 3) mm."""
+    return grid.points(np.ones(grid.shape, dtype=bool)).reshape(*grid.shape, 3)

@@ -1,4 +1,4 @@
-"""The distance to the wall on a grid of points: positive in the air of a cavity, negative beyond."""
+"""A grid of points over a cavity, which of them lie in the air, and how far from its wall."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ import numpy as np
 
 from printers.arrays import Flags, Floats
 from printers.measure.box_tree import crossings
-from printers.measure.distance.nearest import nearest_distances
 from printers.measure.surface import Surface
 
 _OFF_CENTRE = np.array([1.2345e-5, 2.3456e-5])
@@ -61,10 +60,3 @@ def coarse_distances(within: Flags, step: float) -> Floats:
     from scipy.ndimage import distance_transform_edt
 
     return np.where(within, distance_transform_edt(within) * step - step / 2, 0.0)
-
-
-def exact_distances(surface: Surface, grid: Grid, within: Flags) -> Floats:
-    """Distance, mm, of every point to the wall: negative where it is not `within` the air."""
-    everywhere = np.ones(grid.shape, dtype=bool)
-    found = nearest_distances(surface.tree, grid.points(everywhere)).reshape(grid.shape)
-    return np.where(within, found, -found)

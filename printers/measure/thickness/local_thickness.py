@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from printers.arrays import Floats, Ints
+from printers.arrays import Flags, Floats
 from printers.measure.box_tree import first_hits
 from printers.measure.distance.nearest import OPPOSITE, inscribed_diameters
 from printers.measure.samples import Samples
@@ -32,22 +32,27 @@ class LocalThickness:
     samples: Samples
     thickness: Floats
 
-    def quantile_area(self, area: float) -> int | None:
+    def chosen(self, which: Flags) -> LocalThickness:
+        """The samples picked by (k,) flags."""
+        return LocalThickness(self.samples.chosen(which), self.thickness[which])
+
+    def of_area(self, area: float) -> int | None:
         """Number of the sample whose thickness is not exceeded on `area` mm²; None without one."""
         needed = max(1, int(np.ceil(area / self.samples.area)))
         if np.isfinite(self.thickness).sum() < needed:
             return None
         return int(np.argsort(self.thickness, kind="stable")[needed - 1])
 
-    def area_by_lines(self, line_width: float, tolerance: float, most: int) -> Floats:
-        """(most + 2,) mm² of surface by the number of whole lines that fit below it, from none.
+    def area_by_units(self, unit: float, tolerance: float) -> dict[int, float]:
+        """mm² of surface by the whole number of units, such as lines, that fit below it.
 
-        A thickness may miss a whole number by the `tolerance`; the last entry holds all that is
-        thicker than `most` lines.
+        A thickness may miss a whole number by the `tolerance`. What is thicker than was looked for
+        is left out.
         """
-        counts = np.floor((self.thickness + tolerance) / line_width)
-        whole: Ints = np.where(np.isfinite(counts), counts, most + 1).clip(max=most + 1).astype(int)
-        return np.bincount(whole, minlength=most + 2) * self.samples.area
+        counts = np.floor((self.thickness[np.isfinite(self.thickness)] + tolerance) / unit)
+        whole, samples = np.unique(counts.astype(np.int64), return_counts=True)
+        areas = samples * self.samples.area
+        return {int(count): float(area) for count, area in zip(whole, areas, strict=True)}
 
 
 def local_thickness(surface: Surface, samples: Samples, reach: float) -> LocalThickness:
