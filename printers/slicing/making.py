@@ -95,15 +95,13 @@ def slice_mesh(
             slicer failed, was too slow, made no file, dropped or changed settings, or moved the
             part.
     """
-    vertices = np.asarray(vertices, dtype=float).reshape(-1, 3)
-    if not len(triangles) or not np.isfinite(vertices).all():
-        raise PrintersError("the mesh has no triangles, or vertices that are no numbers")
+    corners = _corners(np.asarray(vertices, dtype=float), np.asarray(triangles))
     slicer = slicer or required_slicer()
-    placement = placed(vertices, rotation, profile)
-    on_bed = placement.to_gcode(vertices)
+    placement = placed(corners, rotation, profile)
+    on_bed = placement.to_gcode(corners)
     settings = prusa_settings(profile)
     with _kept_or_temporary(folder) as place:
-        (place / "part.stl").write_bytes(binary_stl(on_bed, triangles))
+        (place / "part.stl").write_bytes(binary_stl(on_bed))
         (place / "settings.ini").write_bytes(settings.encode())
         steady = steadily(place)
         started = time.perf_counter()
@@ -169,6 +167,16 @@ def refuse_other_settings(asked: str, gcode: GCode) -> None:
         shown = "; ".join(str(difference) for difference in found[:10])
         more = f" and {len(found) - 10} more" if len(found) > 10 else ""
         raise PrintersError(f"the slicer did not keep its settings: {shown}{more}")
+
+
+def _corners(vertices: Floats, triangles: Ints) -> Floats:
+    """(3 m, 3) the corners of the triangles, one triangle after the other."""
+    if triangles.size == 0 or triangles.min() < 0 or triangles.max() >= len(vertices):
+        raise PrintersError("the mesh has no triangles, or triangles without vertices")
+    corners = np.asarray(vertices[triangles].reshape(-1, 3))
+    if not np.isfinite(corners).all():
+        raise PrintersError("the mesh has vertices that are no numbers")
+    return corners
 
 
 @contextmanager

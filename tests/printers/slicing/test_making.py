@@ -131,18 +131,30 @@ def test_meshes_that_are_none_are_refused_before_the_slicer(pretended: Pretended
     slicer = pretended("touch ran; exit 1")
     with pytest.raises(PrintersError, match="no triangles"):
         slice_mesh(vertices, triangles[:0], PROFILE, slicer)
+    for number in (-1, len(vertices)):
+        with pytest.raises(PrintersError, match="triangles without vertices"):
+            slice_mesh(vertices, np.array([[0, 1, number]]), PROFILE, slicer)
     with pytest.raises(PrintersError, match="no numbers"):
         slice_mesh(vertices * np.nan, triangles, PROFILE, slicer)
     with pytest.raises(PrintersError, match=r"1200\.0 mm long in x"):
         slice_mesh(vertices * 100, triangles, PROFILE, slicer)
 
 
-def test_the_stl_is_the_mesh_and_always_the_same_bytes(box: Box) -> None:
+def test_vertices_of_no_triangle_do_not_move_the_part(pretended: Pretended, box: Box) -> None:
+    vertices, triangles = box
+    astray = np.concatenate((vertices, [[500.0, 500, 500], [np.nan] * 3]))
+    sliced = slice_mesh(astray, triangles, PROFILE, pretended(GOOD), seconds=20)
+    expected = slice_mesh(vertices, triangles, PROFILE, pretended(GOOD), seconds=20)
+    np.testing.assert_array_equal(sliced.placement.shift, expected.placement.shift)
+
+
+def test_the_stl_is_the_mesh(box: Box) -> None:
     import io
 
     import trimesh
 
-    content = binary_stl(*box)
-    assert content == binary_stl(*box) and len(content) == 84 + 50 * len(box[1])
+    vertices, triangles = box
+    content = binary_stl(vertices[triangles].reshape(-1, 3))
+    assert content[:80] == bytes(80) and len(content) == 84 + 50 * len(box[1])
     mesh = trimesh.load(io.BytesIO(content), file_type="stl")
     assert mesh.volume == pytest.approx(12 * 8 * 4) and mesh.is_watertight
