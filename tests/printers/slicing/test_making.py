@@ -14,7 +14,7 @@ from pretended_slicer import SETTINGS_BLOCK, loop
 from printers import load_profile
 from printers.errors import PrintersError
 from printers.slicing.finding import Slicer
-from printers.slicing.making import slice_mesh
+from printers.slicing.making import run_slicer, slice_mesh
 from printers.slicing.prusa import prusa_settings, settings_digest
 from printers.slicing.stl import binary_stl
 
@@ -92,6 +92,18 @@ def test_an_old_file_is_not_taken_for_the_slicers(
     (tmp_path / "part.gcode").write_text("G1 X5 E1\n")
     with pytest.raises(PrintersError, match="made no G-code"):
         slice_mesh(*box, PROFILE, pretended("exit 0"), 0.0, tmp_path, 20)
+    with pytest.raises(PrintersError, match="made no G-code"):
+        run_slicer(pretended("exit 0"), tmp_path, PROFILE, 20)
+
+
+def test_what_the_slicer_got_and_said_is_kept_when_it_fails(
+    pretended: Pretended, box: Box, tmp_path: Path
+) -> None:
+    with pytest.raises(PrintersError, match="status 1: Why"):
+        slice_mesh(*box, PROFILE, pretended("echo Why; exit 1"), 0.0, tmp_path / "kept", 20)
+    kept = {path.name for path in (tmp_path / "kept").iterdir()}
+    assert kept == {"output.txt", "part.stl", "settings.ini"}
+    assert (tmp_path / "kept" / "output.txt").read_text() == "Why\n"
 
 
 def test_warnings_are_in_the_slicers_own_words(pretended: Pretended, box: Box) -> None:
