@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import shutil
 import tempfile
 import time
 from collections.abc import Iterator
@@ -21,7 +22,7 @@ from printers.slicing.finding import Slicer, required_slicer
 from printers.slicing.placing import Placement, misplaced, placed
 from printers.slicing.prusa import parsed_settings, prusa_settings, settings_digest
 from printers.slicing.running import run
-from printers.slicing.steadiness import steadily
+from printers.slicing.steadiness import UNSTEADY, Steadiness, steadiness
 from printers.slicing.stl import binary_stl
 
 DEFAULT_SECONDS = 600.0
@@ -95,17 +96,15 @@ def slice_mesh(
             slicer failed, was too slow, made no file, dropped or changed settings, or moved the
             part.
     """
-    vertices = np.asarray(vertices, dtype=float).reshape(-1, 3)
-    if not len(triangles) or not np.isfinite(vertices).all():
-        raise PrintersError("the mesh has no triangles, or vertices that are no numbers")
+    corners = _corners(np.asarray(vertices, dtype=float), np.asarray(triangles))
     slicer = slicer or required_slicer()
-    placement = placed(vertices, rotation, profile)
-    on_bed = placement.to_gcode(vertices)
+    placement = placed(corners, rotation, profile)
+    on_bed = placement.to_gcode(corners)
     settings = prusa_settings(profile)
-    with _kept_or_temporary(folder) as place:
-        (place / "part.stl").write_bytes(binary_stl(on_bed, triangles))
+    with _working_folder(folder) as place:
+        (place / "part.stl").write_bytes(binary_stl(on_bed))
         (place / "settings.ini").write_bytes(settings.encode())
-        steady = steadily(place)
+        steady = steadiness(place)
         started = time.perf_counter()
         warnings = run_slicer(slicer, place, profile, seconds, steady)
         took = time.perf_counter() - started
@@ -119,9 +118,9 @@ def slice_mesh(
         profile_digest=settings_digest(settings),
         seconds=took,
         placement=placement,
-        reproducible=bool(steady),
+        reproducible=bool(steady.prefix),
         warnings=warnings,
-        notes=(*notes, *(() if steady else (NOT_STEADY,))),
+        notes=(*notes, *(() if steady.prefix else (NOT_STEADY,))),
     )
 
 
@@ -130,11 +129,9 @@ def run_slicer(
     folder: Path,
     profile: PrinterProfile,
     seconds: float,
-    prefix: tuple[str, ...] = (),
+    steady: Steadiness = UNSTEADY,
 ) -> tuple[str, ...]:
     """Slice `part.stl` with `settings.ini` into `part.gcode`, all in the folder.
-
-    `prefix` stands before the command, as `steadily` gives it.
 
     Returns:
         The slicer's warnings.
@@ -145,10 +142,15 @@ def run_slicer(
     middle = ",".join(f"{side / 2:g}" for side in profile.build_volume[:2])
     made = folder / "part.gcode"
     made.unlink(missing_ok=True)
-    command = [*prefix, str(slicer.path.absolute()), "--export-gcode", "--load", "settings.ini"]
-    with tempfile.TemporaryDirectory(prefix="bellows-slicer-") as own:  # where it keeps its own
-        command += ["--datadir", own, "--center", middle, "--output", made.name, "part.stl"]
-        ended = run(command, folder, seconds)
+    command = [
+        *steady.prefix,
+        str(slicer.path.absolute()),
+        "--export-gcode",
+        "--load",
+        "settings.ini",
+    ]
+    command += ["--datadir", "own", "--center", middle, "--output", made.name, "part.stl"]
+    ended = run(command, folder, seconds, steady.environment)
     warnings = tuple(_warnings(ended.output))
     reason = f": {shortened('; '.join(warnings))}" if warnings else ""
     if ended.status != 0:
@@ -171,14 +173,27 @@ def refuse_other_settings(asked: str, gcode: GCode) -> None:
         raise PrintersError(f"the slicer did not keep its settings: {shown}{more}")
 
 
+def _corners(vertices: Floats, triangles: Ints) -> Floats:
+    """(3 m, 3) the corners of the triangles, one triangle after the other."""
+    if triangles.size == 0 or triangles.min() < 0 or triangles.max() >= len(vertices):
+        raise PrintersError("the mesh has no triangles, or triangles without vertices")
+    corners = np.asarray(vertices[triangles].reshape(-1, 3))
+    if not np.isfinite(corners).all():
+        raise PrintersError("the mesh has vertices that are no numbers")
+    return corners
+
+
 @contextmanager
-def _kept_or_temporary(folder: Path | None) -> Iterator[Path]:
-    if folder is not None:
-        folder.mkdir(parents=True, exist_ok=True)
-        yield folder.absolute()
-        return
+def _working_folder(kept: Path | None) -> Iterator[Path]:
+    """A temporary folder, whose name is always as long; its files are copied to where they stay."""
     with tempfile.TemporaryDirectory(prefix="bellows-slicing-") as place:
-        yield Path(place)
+        try:
+            yield Path(place)
+        finally:
+            if kept is not None:
+                kept.mkdir(parents=True, exist_ok=True)
+                for file in filter(Path.is_file, Path(place).iterdir()):
+                    shutil.copy(file, kept)
 
 
 def _warnings(output: str) -> Iterator[str]:

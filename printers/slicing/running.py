@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import signal
 import subprocess
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -24,8 +24,15 @@ class Ended:
     output: str
 
 
-def run(command: Sequence[str], folder: Path, seconds: float) -> Ended:
+def run(
+    command: Sequence[str],
+    folder: Path,
+    seconds: float,
+    environment: Mapping[str, str] | None = None,
+) -> Ended:
     """Run the command in the folder, without input; what it says goes to a file there.
+
+    The environment is this program's unless another is given.
 
     The program has a session of its own, so that it is ended with all that it started: after the
     time limit, and when this program is interrupted.
@@ -35,7 +42,7 @@ def run(command: Sequence[str], folder: Path, seconds: float) -> Ended:
     """
     said = folder / "output.txt"
     with said.open("wb") as output:
-        process = _started(command, folder, output.fileno())
+        process = _started(command, folder, output.fileno(), environment)
         try:
             status = process.wait(timeout=seconds)
         except subprocess.TimeoutExpired:
@@ -47,11 +54,14 @@ def run(command: Sequence[str], folder: Path, seconds: float) -> Ended:
     return Ended(status, _tail(said))
 
 
-def _started(command: Sequence[str], folder: Path, output: int) -> subprocess.Popen[bytes]:
+def _started(
+    command: Sequence[str], folder: Path, output: int, environment: Mapping[str, str] | None
+) -> subprocess.Popen[bytes]:
     try:
         return subprocess.Popen(
             command,
             cwd=folder,
+            env=environment,
             stdin=subprocess.DEVNULL,
             stdout=output,
             stderr=subprocess.STDOUT,

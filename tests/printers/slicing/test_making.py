@@ -14,7 +14,7 @@ from pretended_slicer import SETTINGS_BLOCK, loop
 from printers import load_profile
 from printers.errors import PrintersError
 from printers.slicing.finding import Slicer
-from printers.slicing.making import slice_mesh
+from printers.slicing.making import run_slicer, slice_mesh
 from printers.slicing.prusa import prusa_settings, settings_digest
 from printers.slicing.stl import binary_stl
 
@@ -92,6 +92,18 @@ def test_an_old_file_is_not_taken_for_the_slicers(
     (tmp_path / "part.gcode").write_text("G1 X5 E1\n")
     with pytest.raises(PrintersError, match="made no G-code"):
         slice_mesh(*box, PROFILE, pretended("exit 0"), 0.0, tmp_path, 20)
+    with pytest.raises(PrintersError, match="made no G-code"):
+        run_slicer(pretended("exit 0"), tmp_path, PROFILE, 20)
+
+
+def test_what_the_slicer_got_and_said_is_kept_when_it_fails(
+    pretended: Pretended, box: Box, tmp_path: Path
+) -> None:
+    with pytest.raises(PrintersError, match="status 1: Why"):
+        slice_mesh(*box, PROFILE, pretended("echo Why; exit 1"), 0.0, tmp_path / "kept", 20)
+    kept = {path.name for path in (tmp_path / "kept").iterdir()}
+    assert kept == {"output.txt", "part.stl", "settings.ini"}
+    assert (tmp_path / "kept" / "output.txt").read_text() == "Why\n"
 
 
 def test_warnings_are_in_the_slicers_own_words(pretended: Pretended, box: Box) -> None:
@@ -131,18 +143,30 @@ def test_meshes_that_are_none_are_refused_before_the_slicer(pretended: Pretended
     slicer = pretended("touch ran; exit 1")
     with pytest.raises(PrintersError, match="no triangles"):
         slice_mesh(vertices, triangles[:0], PROFILE, slicer)
+    for number in (-1, len(vertices)):
+        with pytest.raises(PrintersError, match="triangles without vertices"):
+            slice_mesh(vertices, np.array([[0, 1, number]]), PROFILE, slicer)
     with pytest.raises(PrintersError, match="no numbers"):
         slice_mesh(vertices * np.nan, triangles, PROFILE, slicer)
     with pytest.raises(PrintersError, match=r"1200\.0 mm long in x"):
         slice_mesh(vertices * 100, triangles, PROFILE, slicer)
 
 
-def test_the_stl_is_the_mesh_and_always_the_same_bytes(box: Box) -> None:
+def test_vertices_of_no_triangle_do_not_move_the_part(pretended: Pretended, box: Box) -> None:
+    vertices, triangles = box
+    astray = np.concatenate((vertices, [[500.0, 500, 500], [np.nan] * 3]))
+    sliced = slice_mesh(astray, triangles, PROFILE, pretended(GOOD), seconds=20)
+    expected = slice_mesh(vertices, triangles, PROFILE, pretended(GOOD), seconds=20)
+    np.testing.assert_array_equal(sliced.placement.shift, expected.placement.shift)
+
+
+def test_the_stl_is_the_mesh(box: Box) -> None:
     import io
 
     import trimesh
 
-    content = binary_stl(*box)
-    assert content == binary_stl(*box) and len(content) == 84 + 50 * len(box[1])
+    vertices, triangles = box
+    content = binary_stl(vertices[triangles].reshape(-1, 3))
+    assert content[:80] == bytes(80) and len(content) == 84 + 50 * len(box[1])
     mesh = trimesh.load(io.BytesIO(content), file_type="stl")
     assert mesh.volume == pytest.approx(12 * 8 * 4) and mesh.is_watertight

@@ -46,6 +46,12 @@ def test_a_part_that_does_not_fit_is_refused_by_its_side(axis: int, size: float)
         placed(np.array([np.zeros(3), corner]), 0, PROFILE)
 
 
+@pytest.mark.parametrize("rotation", [float("nan"), float("inf"), -1e9])
+def test_a_rotation_that_is_none_is_refused(rotation: float) -> None:
+    with pytest.raises(PrintersError, match=r"rotation is .*; it must lie within ±36000°"):
+        placed(POINTS, rotation, PROFILE)
+
+
 def test_a_long_part_fits_when_it_is_turned() -> None:
     long = np.array([[0, 0, 0], [5.0, 230, 5]])
     with pytest.raises(PrintersError, match=r"230\.0 mm long in y"):
