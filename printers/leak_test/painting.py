@@ -196,7 +196,7 @@ def paint_layer(table, x0, y0, voxel, step, scratch, levels):  # type: ignore[no
     """Write the levels (ny, nx) of one layer from its beads (n, 10).
 
     `x0`, `y0` is the centre of the first cell; `step` the F of a cell's side beyond the painted
-    band; `scratch` (5, ny, nx) floats that are written over.
+    band, 0 for none; `scratch` (5, ny, nx) floats that are written over.
     """
     nearest, gx, gy, slope, rise = scratch[0], scratch[1], scratch[2], scratch[3], scratch[4]
     scratch[:] = 0.0
@@ -204,5 +204,6 @@ def paint_layer(table, x0, y0, voxel, step, scratch, levels):  # type: ignore[no
     rise[:] = np.inf
     _paint_nearest(table, x0, y0, voxel, nearest, gx, gy, slope)
     _find_ridges(table, x0, y0, voxel, nearest, gx, gy, slope, rise)
-    _spread(nearest, step)
+    if step > 0:
+        _spread(nearest, step)
     _to_levels(nearest, gx, gy, slope, rise, voxel, levels)
