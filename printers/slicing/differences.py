@@ -5,8 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
-SAME = {("ensure_vertical_shell_thickness", "1"): "enabled"}
-"""What a newer version calls the value of a key."""
+SAME: Mapping[tuple[str, str], tuple[str | None, ...]] = {
+    ("ensure_vertical_shell_thickness", "1"): ("enabled", None),
+}
+"""What newer versions make of a value without another meaning: PrusaSlicer 2.9 has a word for it,
+and 2.7 always does it and has no key."""
 
 
 @dataclass(frozen=True)
@@ -26,10 +29,10 @@ class Difference:
 def differences(asked: Mapping[str, str], used: Mapping[str, str]) -> Iterator[Difference]:
     """Settings that were not used as they were asked for, in their order."""
     for key, value in asked.items():
-        if key not in used:
-            yield Difference(key, value, None)
-        elif not _equal(value, used[key]) and SAME.get((key, value)) != used[key]:
-            yield Difference(key, value, used[key])
+        theirs = used.get(key)
+        same = theirs is not None and _equal(value, theirs)
+        if not same and theirs not in SAME.get((key, value), ()):
+            yield Difference(key, value, theirs)
 
 
 def _equal(asked: str, used: str) -> bool:

@@ -21,12 +21,18 @@ from printers.slicing.finding import Slicer, required_slicer
 from printers.slicing.placing import Placement, misplaced, placed
 from printers.slicing.prusa import parsed_settings, prusa_settings, settings_digest
 from printers.slicing.running import run
+from printers.slicing.steadiness import steadily
 from printers.slicing.stl import binary_stl
 
 DEFAULT_SECONDS = 600.0
-"""Time limit of one part, s. The shipped finger takes a fortieth of it, alone on a processor."""
+"""Time limit of one part, s. The shipped finger takes 15 s of a processor."""
 
 MOST_WARNINGS = 20
+
+NOT_STEADY = (
+    "this system cannot fix a program's addresses: another run of the slicer lays some lines and "
+    "all random seams elsewhere"
+)
 
 _PROGRESS = re.compile(
     r"\d+ => .*|Slicing result exported to .*|\[.*\[(trace|debug|info)\].*|Object name: .*|"
@@ -45,8 +51,9 @@ class Sliced:
         profile_digest: The sha256 of the settings it was given.
         seconds: How long it took.
         placement: From the part's coordinates to those of the G-code, and back.
+        reproducible: Whether the same slicer makes the same beads of the same part again.
         warnings: What the slicer warned of, in its own words, one warning each.
-        notes: Sentences of ours: what the G-code leaves out, and what is not reproducible.
+        notes: Sentences of ours: what the G-code leaves out, and if it is not reproducible.
     """
 
     gcode: GCode
@@ -55,6 +62,7 @@ class Sliced:
     profile_digest: str
     seconds: float
     placement: Placement
+    reproducible: bool
     warnings: tuple[str, ...]
     notes: tuple[str, ...]
 
@@ -78,7 +86,8 @@ def slice_mesh(
         profile: The printer, its filament and settings.
         slicer: By default the one that `find_slicer` finds.
         rotation: About z, degrees, anticlockwise seen from above.
-        folder: Where `part.stl`, `settings.ini` and `part.gcode` are kept; by default nowhere.
+        folder: Where `part.stl`, `settings.ini`, `part.gcode` and, in `output.txt`, what the
+            slicer said are kept; by default nowhere.
         seconds: Time limit of the slicer.
 
     Raises:
@@ -86,24 +95,21 @@ def slice_mesh(
             slicer failed, was too slow, made no file, dropped or changed settings, or moved the
             part.
     """
-    vertices = np.asarray(vertices, dtype=float).reshape(-1, 3)
-    if not len(triangles) or not np.isfinite(vertices).all():
-        raise PrintersError("the mesh has no triangles, or vertices that are no numbers")
+    corners = _corners(np.asarray(vertices, dtype=float), np.asarray(triangles))
     slicer = slicer or required_slicer()
-    placement = placed(vertices, rotation, profile)
-    on_bed = placement.to_gcode(vertices)
+    placement = placed(corners, rotation, profile)
+    on_bed = placement.to_gcode(corners)
     settings = prusa_settings(profile)
     with _kept_or_temporary(folder) as place:
-        (place / "part.stl").write_bytes(binary_stl(on_bed, triangles))
+        (place / "part.stl").write_bytes(binary_stl(on_bed))
         (place / "settings.ini").write_bytes(settings.encode())
+        steady = steadily(place)
         started = time.perf_counter()
-        warnings = run_slicer(slicer, place, profile, seconds)
+        warnings = run_slicer(slicer, place, profile, seconds, steady)
         took = time.perf_counter() - started
         gcode = read_gcode(place / "part.gcode")
     refuse_other_settings(settings, gcode)
     notes = misplaced(gcode.beads, on_bed, profile.line_width)
-    if profile.slicer.seam == "random":
-        notes.append("seams are random: another run of the slicer lays them elsewhere")
     return Sliced(
         gcode=gcode,
         slicer=slicer.name,
@@ -111,15 +117,22 @@ def slice_mesh(
         profile_digest=settings_digest(settings),
         seconds=took,
         placement=placement,
+        reproducible=bool(steady),
         warnings=warnings,
-        notes=tuple(notes),
+        notes=(*notes, *(() if steady else (NOT_STEADY,))),
     )
 
 
 def run_slicer(
-    slicer: Slicer, folder: Path, profile: PrinterProfile, seconds: float
+    slicer: Slicer,
+    folder: Path,
+    profile: PrinterProfile,
+    seconds: float,
+    prefix: tuple[str, ...] = (),
 ) -> tuple[str, ...]:
     """Slice `part.stl` with `settings.ini` into `part.gcode`, all in the folder.
+
+    `prefix` stands before the command, as `steadily` gives it.
 
     Returns:
         The slicer's warnings.
@@ -130,9 +143,10 @@ def run_slicer(
     middle = ",".join(f"{side / 2:g}" for side in profile.build_volume[:2])
     made = folder / "part.gcode"
     made.unlink(missing_ok=True)
-    command = [str(slicer.path.absolute()), "--export-gcode", "--load", "settings.ini"]
-    command += ["--datadir", str(folder / "slicer"), "--center", middle]
-    ended = run([*command, "--output", made.name, "part.stl"], folder, seconds)
+    command = [*prefix, str(slicer.path.absolute()), "--export-gcode", "--load", "settings.ini"]
+    with tempfile.TemporaryDirectory(prefix="bellows-slicer-") as own:  # where it keeps its own
+        command += ["--datadir", own, "--center", middle, "--output", made.name, "part.stl"]
+        ended = run(command, folder, seconds)
     warnings = tuple(_warnings(ended.output))
     reason = f": {shortened('; '.join(warnings))}" if warnings else ""
     if ended.status != 0:
@@ -155,9 +169,20 @@ def refuse_other_settings(asked: str, gcode: GCode) -> None:
         raise PrintersError(f"the slicer did not keep its settings: {shown}{more}")
 
 
+def _corners(vertices: Floats, triangles: Ints) -> Floats:
+    """(3 m, 3) the corners of the triangles, one triangle after the other."""
+    if triangles.size == 0 or triangles.min() < 0 or triangles.max() >= len(vertices):
+        raise PrintersError("the mesh has no triangles, or triangles without vertices")
+    corners = np.asarray(vertices[triangles].reshape(-1, 3))
+    if not np.isfinite(corners).all():
+        raise PrintersError("the mesh has vertices that are no numbers")
+    return corners
+
+
 @contextmanager
 def _kept_or_temporary(folder: Path | None) -> Iterator[Path]:
     if folder is not None:
+        folder.mkdir(parents=True, exist_ok=True)
         yield folder.absolute()
         return
     with tempfile.TemporaryDirectory(prefix="bellows-slicing-") as place:

@@ -11,6 +11,9 @@ from printers.errors import PrintersError
 from printers.gcode.beads import Beads
 from printers.profile import PrinterProfile
 
+LARGEST_ROTATION = 36_000.0
+"""Degrees: beyond a hundred turns a degree loses its digits."""
+
 
 @dataclass(frozen=True, eq=False)
 class Placement:
@@ -38,8 +41,10 @@ def placed(vertices: Floats, rotation: float, profile: PrinterProfile) -> Placem
     """The placement with the middle of the turned part's box in the middle of the bed.
 
     Raises:
-        PrintersError: The part does not fit the printer.
+        PrintersError: The part does not fit the printer, or the rotation is no number.
     """
+    if not abs(rotation) <= LARGEST_ROTATION:
+        raise PrintersError(f"rotation is {rotation:g}°; it must lie within ±{LARGEST_ROTATION:g}°")
     turned = vertices @ _turn(rotation).T
     lower, upper = turned.min(axis=0), turned.max(axis=0)
     build = np.array(profile.build_volume)
