@@ -123,7 +123,7 @@ def paint(beads: Beads, voxel: float, line_width: float, far: bool = True) -> Fi
         if len(members):
             rows = table[members]
             paint_layer(rows, corner[0], corner[1], voxel, step, scratch, levels[layer])
-    ends = heights[0] - line_width, heights[-1] + line_width
+    ends = 2 * heights[0] - heights[1], 2 * heights[-1] - heights[-2]
     around = np.concatenate([ends[:1], heights, ends[1:]])
     x, y = corner.tolist()
     return Field(levels, around, (x, y), voxel, line_width, rim)

@@ -92,8 +92,10 @@ CASES: dict[str, Case] = {
         for rest in (0.2, 0.4, 0.6)
     },
     "walls of 0.8 mm": Case(
-        partial(parts.shipped, "finger", "indent=none", "bubble_thickness=0.8",
-                "tendon_thickness=0.8"), FAIL,
+        partial(
+            parts.shipped, "finger", "indent=none", "bubble_thickness=0.8", "tendon_thickness=0.8"
+        ),
+        FAIL,
     ),  # fmt: skip
     "flow 100 %": Case(finger, FAIL, {"flow": 100.0}),
     "pin of 0.1 mm in a wall, closed by the slicer": Case(partial(parts.pin_in_wall, 0.1), SOUND),

@@ -33,8 +33,9 @@ CAVITY = (LOOPS_OF_CAVITY + 0.5) * PITCH
 
 
 def closed(half: float, z: float, number: int) -> Iterator[Floats]:
-    """A loop that begins and ends in a corner."""
-    yield half * np.array([[1, 1], [-1, 1], [-1, -1], [1, -1], [1, 1]])
+    """A loop that begins and ends in a corner, of every layer and loop in another one."""
+    corners = half * np.array([[1, 1], [-1, 1], [-1, -1], [1, -1], [1, 1]])
+    yield corners @ rotation(90.0 * (number + round(z / HEIGHT))).T
 
 
 def with_gap(gap: float, where: Callable[[float, int], bool] = lambda z, number: True) -> Loop:
@@ -101,7 +102,9 @@ class Box:
     def beads(self) -> Beads:
         """All layers from the bed up."""
         paths = list(self._paths())
-        joined = [beads_of(points, z, self.height, number) for number, (points, z) in enumerate(paths)]
+        joined = [
+            beads_of(points, z, self.height, number) for number, (points, z) in enumerate(paths)
+        ]
         return joined_beads(joined)
 
     @property
