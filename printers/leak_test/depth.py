@@ -81,7 +81,7 @@ def thinnest_seal(field: Field, marks: Levels, open_from: int, stretch: float) -
     if not len(cells):
         return Crossing(math.inf, math.inf, np.zeros((0, 3)), np.full(3, np.nan))
     points = _places(field, cells, share.shape, side)
-    return _straightened(points, share.ravel()[cells] / FULL, stretch)
+    return _straightened(points, share.ravel()[cells] / FULL, stretch, side)
 
 
 def _plastic_of_levels(sharpness: float) -> Levels:
@@ -95,10 +95,20 @@ def _plastic_of_levels(sharpness: float) -> Levels:
 
 
 @njit(cache=True, nogil=True)
+def _plastic(levels, air, b, a, plastic):  # type: ignore[no-untyped-def]
+    """Plastic in a cell: part of it if it is air or beside air, else all."""
+    side = air[b, a] > 0
+    for row, column in ((b - 1, a), (b + 1, a), (b, a - 1), (b, a + 1)):
+        if 0 <= row < air.shape[0] and 0 <= column < air.shape[1]:
+            side |= air[row, column] > 0
+    return plastic[levels[b, a]] if side else plastic[0]
+
+
+@njit(cache=True, nogil=True)
 def _pooled(levels, marks, factor, plastic, open_from, steps):  # type: ignore[no-untyped-def]
     """Share of plastic and mark of cells of `factor` x `factor` finer ones.
 
-    Air are the cells from the level `open_from` on, and those beyond the beads' sides that are
+    A cell has the mark that half of them have. Air are the cells from the level `open_from` on, and those beyond the beads' sides that are
     `steps` from one; other voids are closed.
     """
     nz, ny, nx = levels.shape
@@ -119,17 +129,23 @@ def _pooled(levels, marks, factor, plastic, open_from, steps):  # type: ignore[n
                                 air[j, i] = step + 2
         for j in range(shape[1]):
             for i in range(shape[2]):
-                total, count, mark = 0, 0, 0
+                total, count = 0, 0
+                cavity, outside, plug = 0, 0, 0
                 for b in range(j * factor, min((j + 1) * factor, ny)):
                     for a in range(i * factor, min((i + 1) * factor, nx)):
-                        closed = levels[k, b, a] >= AIR and air[b, a] == 0
-                        total += FULL if closed else plastic[levels[k, b, a]]
+                        total += _plastic(levels[k], air, b, a, plastic)
                         count += 1
                         own = marks[k, b, a]
-                        if own == CLOSED or (own in (CAVITY, OUTSIDE) and mark != CLOSED):
-                            mark = own
+                        cavity += own == CAVITY
+                        outside += own == OUTSIDE
+                        plug += own == CLOSED
                 share[k, j, i] = int(total / count + 0.5)
-                ends[k, j, i] = mark
+                if plug:
+                    ends[k, j, i] = CLOSED
+                elif 2 * cavity >= count:
+                    ends[k, j, i] = CAVITY
+                elif 2 * outside >= count:
+                    ends[k, j, i] = OUTSIDE
     return share, ends
 
 
@@ -226,15 +242,23 @@ def _places(field: Field, cells: Ints, shape: tuple[int, ...], side: float) -> F
     return np.column_stack([x + i * side, y + j * side, middle[k]])
 
 
-def _straightened(points: Floats, share: Floats, stretch: float) -> Crossing:
-    """The path with what it crosses of every wall shortened to the straight way."""
+def _straightened(points: Floats, share: Floats, stretch: float, side: float) -> Crossing:
+    """The path with what it crosses of every wall shortened to the straight way.
+
+    Of all ways through a wall the one is found whose first and last cell hold least. That is made
+    good by half a `side` of a cell sideways; heights are whole layers.
+    """
     crossed = []
     for scale in (stretch, 1.0):
-        steps = np.linalg.norm(np.diff(points, axis=0) * [1, 1, scale], axis=1)
+        legs = np.diff(points, axis=0) * [1, 1, scale]
+        steps = np.linalg.norm(legs, axis=1)
         plastic = steps * (share[:-1] + share[1:]) / 2
         for first, last in _runs(plastic > 0):
-            chord = np.linalg.norm((points[last] - points[first]) * [1, 1, scale])
-            plastic[first:last] *= chord / steps[first:last].sum()
+            chord = legs[first:last].sum(axis=0)
+            length = max(float(np.linalg.norm(chord)), 1e-9)
+            plastic[first:last] *= length / steps[first:last].sum()
+            missing = side / 2 * float(np.linalg.norm(chord[:2])) / length
+            plastic[first:last] *= 1 + missing / plastic[first:last].sum()
         crossed.append(plastic)
     before = np.concatenate([[0.0], np.cumsum(crossed[0])])
     half = before[-1] / 2

@@ -107,20 +107,23 @@ def grid_for(beads: Beads, voxel: float | None, line_width: float) -> tuple[floa
     return needed, [f"the part is large: cells of {needed:.3g} mm instead of {asked:.3g} mm"]
 
 
-def paint(beads: Beads, voxel: float, line_width: float) -> Field:
-    """The field of the beads on cells of the side `voxel`, mm."""
+def paint(beads: Beads, voxel: float, line_width: float, far: bool = True) -> Field:
+    """The field of the beads on cells of the side `voxel`, mm.
+
+    Where `far` distances are not asked for, all from `painting.PAINTED` on are the largest.
+    """
     (low, high), rim = _outline(beads), ceil(line_width / 2 / voxel) + 1
     corner = low - rim * voxel
     nx, ny = (np.ceil((high - low) / voxel).astype(int) + 2 * rim).tolist()
     heights = _heights(beads)
     levels = np.full((len(heights) + 1, ny, nx), 255, dtype=np.uint8)
     scratch = np.empty((5, ny, nx), dtype=np.float32)
-    table, step = _table(beads), 2 * voxel / line_width
+    table, step = _table(beads), 2 * voxel / line_width if far else 0.0
     for layer, members in enumerate(_members(beads, heights), start=1):
         if len(members):
             rows = table[members]
             paint_layer(rows, corner[0], corner[1], voxel, step, scratch, levels[layer])
-    ends = heights[0] - line_width, heights[-1] + line_width
+    ends = 2 * heights[0] - heights[1], 2 * heights[-1] - heights[-2]
     around = np.concatenate([ends[:1], heights, ends[1:]])
     x, y = corner.tolist()
     return Field(levels, around, (x, y), voxel, line_width, rim)

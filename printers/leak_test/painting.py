@@ -24,11 +24,16 @@ import numpy as np
 
 from printers.compilation import njit
 
-PAINTED = 1.4
+PAINTED = 1.6
 """F up to which cells are computed from beads; beyond, distances are summed from cell to cell."""
 
 SHALLOWEST = 0.5
 """F below which no ridge is looked for: beads that overlap by half have nothing between them."""
+
+WITHIN = 0.75
+"""A line crosses a cell if its foot is no farther from the middle than half the cell's extent
+towards it, and cells that a line crosses are connected by their sides. Half more, since at round
+ends the way to the ridge is not the shortest."""
 
 MITRE = math.sqrt(2.0)
 SHARPEST = -0.5  # cosine of the turn: 120°
@@ -50,7 +55,7 @@ AIR = 125
 
 @njit(cache=True, nogil=True)
 def _scaled(bead, x, y):  # type: ignore[no-untyped-def]
-    """F and its gradient's direction at (x, y)."""
+    """F and its gradient times half the width at (x, y)."""
     half, tx, ty = bead[HALF], bead[TX], bead[TY]
     rx, ry = x - bead[AX], y - bead[AY]
     along = rx * tx + ry * ty
@@ -70,8 +75,8 @@ def _scaled(bead, x, y):  # type: ignore[no-untyped-def]
     if rx * ox + ry * oy <= 0.0:  # no neighbour (0, 0), or it covers the point itself
         return d / half, rx / d, ry / d
     other = ry * ox - rx * oy
-    if d >= MITRE * max(abs(across), abs(other)):
-        return d / MITRE / half, rx / d, ry / d
+    if d > (1 + 1e-9) * MITRE * max(abs(across), abs(other)):
+        return d / MITRE / half, rx / d / MITRE, ry / d / MITRE
     if abs(across) >= abs(other):
         sign = 1.0 if across >= 0 else -1.0
         return abs(across) / half, -ty * sign, tx * sign
@@ -139,7 +144,8 @@ def _find_ridges(table, x0, y0, voxel, nearest, gx, gy, slope, rise):  # type: i
                 f, ux, uy = _scaled(bead, x0 + i * voxel, y)
                 facing = ux * gx[j, i] + uy * gy[j, i]
                 if facing < 0.0:
-                    way = (f - nearest[j, i]) / (slope[j, i] - facing * own)
+                    size = math.sqrt(gx[j, i] ** 2 + gy[j, i] ** 2)
+                    way = (f - nearest[j, i]) / (slope[j, i] * size - facing / size * own)
                     rise[j, i] = min(rise[j, i], max(way, 0.0))
 
 
@@ -180,10 +186,9 @@ def _to_levels(nearest, gx, gy, slope, rise, voxel, levels):  # type: ignore[no-
     for j in range(ny):
         for i in range(nx):
             f = nearest[j, i]
-            # A line crosses the cell if its foot is no farther than this: the cells that hold a
-            # ridge are then connected by their sides.
-            if rise[j, i] <= 0.5 * voxel * (abs(gx[j, i]) + abs(gy[j, i])):
-                f += slope[j, i] * rise[j, i]
+            size = math.sqrt(gx[j, i] ** 2 + gy[j, i] ** 2)
+            if rise[j, i] * size <= WITHIN * voxel * (abs(gx[j, i]) + abs(gy[j, i])):
+                f += slope[j, i] * size * rise[j, i]
             if f <= COARSE_FROM:
                 levels[j, i] = int(f * FINE + 0.5)
             else:
@@ -196,7 +201,7 @@ def paint_layer(table, x0, y0, voxel, step, scratch, levels):  # type: ignore[no
     """Write the levels (ny, nx) of one layer from its beads (n, 10).
 
     `x0`, `y0` is the centre of the first cell; `step` the F of a cell's side beyond the painted
-    band; `scratch` (5, ny, nx) floats that are written over.
+    band, 0 for none; `scratch` (5, ny, nx) floats that are written over.
     """
     nearest, gx, gy, slope, rise = scratch[0], scratch[1], scratch[2], scratch[3], scratch[4]
     scratch[:] = 0.0
@@ -204,5 +209,6 @@ def paint_layer(table, x0, y0, voxel, step, scratch, levels):  # type: ignore[no
     rise[:] = np.inf
     _paint_nearest(table, x0, y0, voxel, nearest, gx, gy, slope)
     _find_ridges(table, x0, y0, voxel, nearest, gx, gy, slope, rise)
-    _spread(nearest, step)
+    if step > 0:
+        _spread(nearest, step)
     _to_levels(nearest, gx, gy, slope, rise, voxel, levels)

@@ -73,7 +73,7 @@ def _depth(field: Field, opening: Opening) -> float:
 def _start(field: Field, opening: Opening) -> int:
     _require_surrounded(field, opening)
     depth, best, level = _depth(field, opening), -1, AIR
-    reach = 2 * field.voxel
+    reach = max(2 * field.voxel, float(np.diff(field.heights[1:-1]).max()))
     for layer, window, along, beside in _around(field, opening):
         behind = (beside <= opening.radius) & (along < -depth) & (along >= -depth - reach)
         rows, columns = np.nonzero(behind)

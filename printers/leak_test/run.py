@@ -7,11 +7,11 @@ from typing import cast
 
 import numpy as np
 
-from printers.arrays import Floats
+from printers.arrays import Floats, Ints
 from printers.errors import PrintersError
 from printers.gcode.beads import Beads
 from printers.leak_test.depth import CLOSED_VOID, thinnest_seal
-from printers.leak_test.field import Field, grid_for, level_of, paint
+from printers.leak_test.field import Field, Levels, grid_for, level_of, paint, ratio_of
 from printers.leak_test.flood import CAVITY, CLOSED, OUTSIDE
 from printers.leak_test.frames import Transform, matrix_of, moved
 from printers.leak_test.limits import stretch_of_heights
@@ -96,9 +96,9 @@ def leak_test(
     )
 
 
-def _paths(field: Field, openings: Sequence[Opening]) -> list[tuple[WidestPath, np.ndarray]]:
+def _paths(field: Field, openings: Sequence[Opening]) -> list[tuple[WidestPath, Ints]]:
     """The widest path and its cells; where it surely leaks also those beside it."""
-    found: list[tuple[WidestPath, np.ndarray]] = []
+    found: list[tuple[WidestPath, Ints]] = []
     blocked: list[Floats] = []
     while len(found) < MOST_LEAKS:
         path = widest_path(field, openings, blocked)
@@ -113,9 +113,7 @@ def _paths(field: Field, openings: Sequence[Opening]) -> list[tuple[WidestPath, 
     return found
 
 
-def _leak(field: Field, cells: np.ndarray, to_part: Floats) -> Leak:
-    from printers.leak_test.field import ratio_of
-
+def _leak(field: Field, cells: Ints, to_part: Floats) -> Leak:
     cell = narrowest(field, cells)
     level = int(field.levels.ravel()[cell])
     ratio = float(ratio_of(level))
@@ -155,7 +153,7 @@ def _material(beads: Beads, solid_volume: float | None, profile: PrinterProfile)
 def _view(
     field: Field,
     beads: Beads,
-    path: tuple[WidestPath, np.ndarray],
+    path: tuple[WidestPath, Ints],
     way: Floats,
     to_part: Floats,
 ) -> LayerView | None:
@@ -173,10 +171,8 @@ def _view(
     near = np.minimum(beads.start, beads.end) <= middle[:2] + VIEWED
     near &= np.maximum(beads.start, beads.end) >= middle[:2] - VIEWED
     rows, columns = _window(field, middle)
-    shape = field.levels.shape
-    marks = widest.marks.reshape(shape)[layer][rows, columns]
-    kinds = np.zeros(256, dtype=np.int64)
-    kinds[[CAVITY, OUTSIDE, CLOSED]] = 1, 2, 3
+    marks = widest.marks.reshape(field.levels.shape)[layer][rows, columns]
+    levels = field.levels[layer][rows, columns]
     x, y = field.corner
     corner = x + columns.start * field.voxel, y + rows.start * field.voxel
     return LayerView(
@@ -185,11 +181,27 @@ def _view(
         top=float(top),
         corner=corner,
         voxel=field.voxel,
-        air=kinds[marks],
+        air=_kinds(marks, levels, widest.ratio, field),
         path=points,
         place=_place(middle),
         to_part=to_part,
     )
+
+
+def _kinds(marks: Levels, levels: Levels, ratio: float, field: Field) -> Ints:
+    """The kinds of a `LayerView` in a layer.
+
+    Air that is no wider than the leak bears no mark; along its walls it belongs to what is beside.
+    """
+    from scipy.ndimage import binary_dilation
+
+    kinds = np.where(levels >= AIR, 4, 0).astype(np.int64)
+    skin = int(np.ceil(max(ratio - 1, 0.0) * field.line_width / 2 / field.voxel)) + 1
+    for kind, mark in ((1, CAVITY), (2, OUTSIDE)):
+        wider = binary_dilation(marks == mark, iterations=skin, mask=kinds == 4)
+        kinds[wider | (marks == mark)] = kind
+    kinds[marks == CLOSED] = 3
+    return kinds
 
 
 def _window(field: Field, middle: Floats) -> tuple[slice, slice]:

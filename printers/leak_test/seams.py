@@ -30,7 +30,7 @@ def seam_tolerance(beads: Beads, openings: Sequence[Opening], line_width: float)
     low, high, tried = -1, len(LOSSES), []
     while high - low > 1:
         middle = (low + high) // 2
-        field = paint(shortened(beads, LOSSES[middle]), voxel, line_width)
+        field = paint(shortened(beads, LOSSES[middle]), voxel, line_width, far=False)
         path = widest_path(field, openings)
         tried.append((LOSSES[middle], path.ratio))
         low, high = (low, middle) if path.is_open else (middle, high)

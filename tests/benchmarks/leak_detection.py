@@ -33,7 +33,7 @@ from printers.slicing.making import Sliced, slice_mesh
 
 RESULTS = Path(__file__).with_suffix(".json")
 COLUMNS = ("verdict", "ratio", "width", "lines", "beside_voids", "depth", "seams", "material",
-           "leak_distance", "depth_distance", "expected", "slice_s", "test_s", "memory_mb")  # fmt: skip
+           "leak_distance", "depth_distance", "expected", "slice_s", "test_s", "cpu_s", "memory_mb")  # fmt: skip
 MARGINAL_BAND = (0.95, 1.05)
 
 
@@ -92,8 +92,10 @@ CASES: dict[str, Case] = {
         for rest in (0.2, 0.4, 0.6)
     },
     "walls of 0.8 mm": Case(
-        partial(parts.shipped, "finger", "indent=none", "bubble_thickness=0.8",
-                "tendon_thickness=0.8"), FAIL,
+        partial(
+            parts.shipped, "finger", "indent=none", "bubble_thickness=0.8", "tendon_thickness=0.8"
+        ),
+        FAIL,
     ),  # fmt: skip
     "flow 100 %": Case(finger, FAIL, {"flow": 100.0}),
     "pin of 0.1 mm in a wall, closed by the slicer": Case(partial(parts.pin_in_wall, 0.1), SOUND),
@@ -113,15 +115,16 @@ def measure(case: Case) -> dict[str, Any]:
     part, profile = case.part(), profile_of(case)
     sliced = slice_mesh(*part.mesh, profile, rotation=case.rotation)
     _warm_up(sliced, part, profile)
-    started = time.perf_counter()
+    started, used = time.perf_counter(), time.process_time()
     test = test_of(sliced, part, profile)
-    seconds = time.perf_counter() - started
+    seconds, cpu = time.perf_counter() - started, time.process_time() - used
     memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1000
     return row_of(test, part) | {
         "expected": case.expected,
         "as_expected": is_expected(case, test, part),
         "slice_s": round(sliced.seconds, 1),
         "test_s": round(seconds, 1),
+        "cpu_s": round(cpu, 1),
         "memory_mb": round(memory),
     }
 
