@@ -16,6 +16,7 @@ from printers.report import place
 from printers.tolerances import FACET_TOLERANCE, ROUNDING
 
 ENTRY = 0.5  # mm behind the rim over which a pin of the mouth's diameter must find room
+LEAST_PIN = 0.05  # mm: where less enters, something stands in the mouth, as `opening_width` says
 DIGITS = 6  # of a coordinate in mm: more are noise of single precision
 PLANE = 0.05  # mm: a rim this close to a plane is one
 
@@ -84,7 +85,7 @@ def _mouth(surface: Surface, cavity: Cavity, rim: Ints) -> Mouth | None:
     centre = middle + frame[:, :2] @ across
     distances = np.linalg.norm(flat_start[:, :2] - across, axis=1)
     room = _room(surface, cavity, centre, axis, frame)
-    pin = radius if room > radius - 2 * FACET_TOLERANCE else room
+    pin = room if LEAST_PIN < room < radius - 2 * FACET_TOLERANCE else radius
     height = float(np.ptp(flat_start[:, 2]))
     return Mouth(
         centre=_triple(centre),

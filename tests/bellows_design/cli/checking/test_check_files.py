@@ -107,6 +107,8 @@ def test_orientations_are_compared_and_the_best_is_judged(bellows: Bellows, tmp_
     assert status == 0 and found["up"] == found["orientations"][0]["up"] != "Z"
     flat = next(each for each in found["orientations"] if each["up"] == "Z")
     assert flat["failed"] == ["bridge"] and "spans 14" in flat["reason"]
+    status, out, _ = bellows("check", path, "--orientation", "auto")
+    assert status == 0 and "orientations, the best first" in out and "spans 14" in out
 
 
 def test_an_opening_may_be_named(bellows: Bellows, tmp_path: Path) -> None:
