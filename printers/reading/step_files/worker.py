@@ -7,7 +7,10 @@ becomes of it is its caller's to notice.
 from __future__ import annotations
 
 import sys
+from contextlib import suppress
 from pathlib import Path
+
+from printers.reading.limits import STEP_SECONDS
 
 PART, MESH, SENTENCE = "part.step", "mesh.npz", "sentence.txt"
 
@@ -43,15 +46,23 @@ def _read(folder: Path) -> None:
 
 
 def _limit(memory: int) -> None:
-    """No more address space than `memory` bytes; not every system can limit it."""
+    """No more address space than `memory` bytes; not every system can limit it.
+
+    Nor more time of the processor than its caller waits, should that be killed meanwhile.
+    """
     try:
         import resource
     except ImportError:
         return
-    hard = resource.getrlimit(resource.RLIMIT_AS)[1]
-    allowed = memory if hard == resource.RLIM_INFINITY else min(memory, hard)
-    resource.setrlimit(resource.RLIMIT_AS, (allowed, hard))
-    resource.setrlimit(resource.RLIMIT_CORE, (0, resource.getrlimit(resource.RLIMIT_CORE)[1]))
+    for kind, most in (
+        (resource.RLIMIT_AS, memory),
+        (resource.RLIMIT_CPU, int(STEP_SECONDS) + 1),
+        (resource.RLIMIT_CORE, 0),
+    ):
+        hard = resource.getrlimit(kind)[1]
+        allowed = most if hard == resource.RLIM_INFINITY else min(most, hard)
+        with suppress(ValueError, OSError):  # macOS limits no address space
+            resource.setrlimit(kind, (allowed, hard))
 
 
 if __name__ == "__main__":
