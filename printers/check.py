@@ -1,25 +1,36 @@
 """The whole printability check of one part for one printer: the list of rules, applied in turn.
 
-A new rule is a file in `printers/rules` and a line in one of the two lists here.
+A new rule is a row of `printers/rule_table.py`, a file in `printers/rules` and a line in one of the
+two lists here.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 
 from printers.errors import PrintersError
 from printers.measure.part import MeasuredPart
 from printers.model import PrintedModel
 from printers.profile import PrinterProfile
 from printers.report import PrintabilityReport, RuleResult
+from printers.rule_table import RULES
 from printers.rules.airtightness import check_airtightness
 from printers.rules.envelope import check_bed_contact, check_build_volume, check_cross_section
 from printers.rules.gaps import check_declared_gaps, check_measured_gaps
-from printers.rules.integrity import check_one_body, check_self_intersection, check_watertight
+from printers.rules.integrity import (
+    check_one_body,
+    check_self_intersection,
+    check_slivers,
+    check_watertight,
+)
 from printers.rules.opening_walls import check_opening_walls
 from printers.rules.openings import check_openings
 from printers.rules.overhangs import check_overhangs
+from printers.rules.passage import check_air_passage
+from printers.rules.printing import check_layer_height, check_plastic
 from printers.rules.sealing_walls import check_sealing_walls
+from printers.rules.thickness import check_thickness
 from printers.rules.walls import (
     check_declared_walls,
     check_measured_walls,
@@ -31,6 +42,8 @@ Rule = Callable[[MeasuredPart], Iterator[RuleResult]]
 RULES_FOR_ANY_MESH: tuple[Rule, ...] = (
     check_watertight,
     check_self_intersection,
+    check_slivers,
+    check_layer_height,
     check_build_volume,
     check_cross_section,
     check_bed_contact,
@@ -47,10 +60,19 @@ RULES_FOR_SOLIDS: tuple[Rule, ...] = (
     check_measured_gaps,
     check_overhangs,
     check_openings,
+    check_thickness,
+    check_air_passage,
+    check_plastic,
 )
 """They measure within the material, and need a mesh that bounds some."""
 
-NEVER_SILENT = ("airtightness", "wall_multiple_measured", "minimum_lines", "minimum_layers")
+NEVER_SILENT = (
+    "airtightness",
+    "wall_multiple_measured",
+    "minimum_lines",
+    "minimum_layers",
+    "thinnest_place",
+)
 """Rules that fail where nothing can be measured: a report without them could pass for good."""
 
 
@@ -59,7 +81,25 @@ def check_printability(model: PrintedModel, profile: PrinterProfile) -> Printabi
     part = MeasuredPart(model, profile)
     if not part.surface.areas.sum() > 0:
         raise PrintersError("the mesh has no triangle with an area")
-    return PrintabilityReport(profile.name, tuple(_results(part)))
+    results = (_completed(result, profile) for result in _results(part))
+    return PrintabilityReport(profile.name, tuple(results))
+
+
+def _completed(result: RuleResult, profile: PrinterProfile) -> RuleResult:
+    """The result with what the table says of its rule, and the severity that the profile sets.
+
+    A rule may warn of less than what its severity is for; a profile that sets one means both.
+    """
+    severity = profile.severity(result.rule)
+    decided = result.verdict == "fail" or (
+        result.verdict == "warn" and result.rule in profile.rules
+    )
+    return replace(
+        result,
+        verdict=severity if decided else result.verdict,
+        severity=severity,
+        source=RULES[result.rule].source,
+    )
 
 
 def _results(part: MeasuredPart) -> Iterator[RuleResult]:

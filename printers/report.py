@@ -6,7 +6,9 @@ from collections.abc import Iterable
 from dataclasses import asdict, dataclass
 from typing import Any, Literal
 
-Verdict = Literal["pass", "warn", "fail"]
+from printers.rule_table import Severity
+
+Verdict = Literal["pass", "info", "warn", "fail"]
 
 
 @dataclass(frozen=True)
@@ -15,7 +17,7 @@ class RuleResult:
 
     Attributes:
         rule: Name of the rule.
-        verdict: "fail" forbids printing, "warn" does not.
+        verdict: "fail" forbids printing, "warn" does not, "info" is good to know.
         measured: What the part has, in `unit`, or in words.
         required: What the printer needs, in `unit`, or in words.
         unit: Empty where there is none.
@@ -24,6 +26,13 @@ class RuleResult:
         uncertainty: How far `measured` may lie from the truth, in `unit`: what the facets of the
             mesh may hide, and what the measurement itself may miss. 0 where it is exact, None
             where `measured` is a declared number or no number.
+        tolerance: By how much `measured` may miss `required` and pass, in `unit`; None where the
+            rule has no such allowance.
+        margin: How far `measured` lies on the good side of `required`, in `unit`; it is negative
+            in a result that passes within its tolerance. None where either is no number.
+        severity: What it means on this printer not to keep the rule; None until the whole check
+            has said so.
+        source: Where the rule and its limit come from.
     """
 
     rule: str
@@ -34,6 +43,10 @@ class RuleResult:
     where: str
     message: str
     uncertainty: float | None = None
+    tolerance: float | None = None
+    margin: float | None = None
+    severity: Severity | None = None
+    source: str = ""
 
 
 @dataclass(frozen=True)
@@ -79,6 +92,27 @@ class PrintabilityReport:
 def pass_or_fail(holds: bool) -> Verdict:
     """The verdict of a rule that forbids printing where it does not hold."""
     return "pass" if holds else "fail"
+
+
+def at_least(
+    rule: str, measured: float, required: float, tolerance: float, where: str, message: str
+) -> RuleResult:
+    """The result of a rule that `measured` mm keep if they miss `required` mm by no more than the
+    `tolerance`, which is also how far they may be off."""
+    verdict = pass_or_fail(measured >= required - tolerance)
+    margin = round(measured - required, 3)
+    shown = round(measured, 3), round(required, 3)
+    return RuleResult(rule, verdict, *shown, "mm", where, message, tolerance, tolerance, margin)
+
+
+def against(measured: float, required: float, tolerance: float) -> str:
+    """In words: how `measured` mm compare with the `required` mm, of which facets may take some."""
+    off = measured - required
+    if off >= 0:
+        return f"{off:.3f} mm more than needed"
+    if off >= -tolerance:
+        return f"{-off:.3f} mm less than needed, within the {tolerance:g} mm that facets may take"
+    return f"{-off:.3f} mm less than needed"
 
 
 def place(point: Iterable[float]) -> str:

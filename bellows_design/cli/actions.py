@@ -12,12 +12,7 @@ from typing import TYPE_CHECKING
 from bellows_design.cli.answer import BAD_INPUT, DONE, NOT_SOLVED, REFUSED, Answer, unwritten
 from bellows_design.cli.output_files import require_file, require_folder, require_plot
 from bellows_design.cli.surroundings.environment import require_working_folder
-from bellows_design.cli.surroundings.memory import (
-    CHECK,
-    EVALUATION,
-    GEOMETRY,
-    require_address_space,
-)
+from bellows_design.cli.surroundings.memory import EVALUATION, GEOMETRY, require_address_space
 from bellows_design.cli.surroundings.solving import solving, usual_store
 from bellows_design.errors import BellowsError, DesignError
 from bellows_design.validation.quoting import quoted
@@ -76,24 +71,6 @@ def design(options: DesignOptions, output: Path) -> Answer:
         "volume_mm3": volume,
     }
     return Answer(content, [f"{output}: {triangles} triangles, {volume / 1000:.2f} cm³"])
-
-
-def check(options: DesignOptions) -> Answer:
-    """Check the part on its printer."""
-    from bellows_design import pipeline
-    from bellows_design.progress import on_stderr
-    from bellows_design.reports.check import check_table
-
-    require_address_space(CHECK)
-    chosen = options.load()
-    chosen.profile()
-    with on_stderr() as progress:
-        progress.stage("geometry")
-        part = pipeline.build_part(chosen)
-        progress.stage("check")
-        report = pipeline.check(chosen, part)
-    status = DONE if report.verdict == "pass" else REFUSED
-    return Answer(pipeline.check_dict(chosen, report), check_table(chosen, report), status)
 
 
 def evaluate(

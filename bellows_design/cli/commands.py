@@ -16,6 +16,18 @@ import typer
 from bellows_design.analysis.model_names import ModelName
 from bellows_design.cli import actions
 from bellows_design.cli.answer import Answer, answer
+from bellows_design.cli.checking.options import (
+    Checked,
+    CheckOptions,
+    FilamentName,
+    KeepGcode,
+    Openings,
+    OrientationChoice,
+    Picture,
+    RequireSlicer,
+    Slice,
+    Up,
+)
 from bellows_design.cli.options import (
     AcceptPoorFit,
     Accuracy,
@@ -114,14 +126,27 @@ def design(
 
 @app.command()
 def check(
-    name: DesignName,
+    name: Checked,
     printer: Printer = None,
+    filament: FilamentName = None,
+    opening: Openings = None,
+    up: Up = None,
+    orientation: OrientationChoice = None,
+    slice_it: Slice = False,
+    require_slicer: RequireSlicer = False,
+    picture: Picture = None,
+    keep_gcode: KeepGcode = None,
     settings: Settings = None,
     as_json: AsJson = False,
 ) -> None:
-    """Check the part against the rules of a printer."""
-    options = DesignOptions(name, tuple(settings or ()), printer)
-    answer(lambda: actions.check(options), as_json)
+    """Check a design, or a part of any program, against the rules of a printer."""
+    from bellows_design.cli.checking.check import check as check_part
+
+    options = CheckOptions(
+        name, tuple(settings or ()), printer, filament, tuple(opening or ()), up, orientation,
+        slice_it, require_slicer, picture, keep_gcode,
+    )  # fmt: skip
+    answer(lambda: check_part(options), as_json)
 
 
 @app.command()

@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from printers.arrays import Flags, Floats
+from printers.measure.leakage.leaks import OpenCavity
 from printers.measure.plugging import near_axis
 from printers.measure.samples import Samples, sample
 from printers.measure.shells import Shells
@@ -23,12 +24,15 @@ class Boundary:
     """A part with its openings plugged.
 
     `bore_depth` mm: how far behind its mouth an opening's bore is left out of every measurement,
-    because the material around it ends at the mouth and is no wall.
+    because the material around it ends at the mouth and is no wall. `opened` is the cavity where
+    it leaks: its wall is told from the outside by the rims of the leaks, and what lies as near to
+    these as a bore is deep is left out likewise.
     """
 
     shells: Shells
     openings: tuple[Opening, ...]
     bore_depth: float
+    opened: OpenCavity | None = None
 
     @property
     def surface(self) -> Surface:
@@ -37,12 +41,14 @@ class Boundary:
 
     @property
     def has_cavity(self) -> bool:
-        """Whether the plugged part encloses any air."""
-        return bool(self.shells.voids)
+        """Whether the plugged part encloses any air, if need be with leaks."""
+        return bool(self.shells.voids) or self.opened is not None
 
     @cached_property
     def of_cavity(self) -> Flags:
         """(m,): triangles of the cavity's wall."""
+        if self.opened is not None:
+            return self.opened.inside
         return np.isin(self.surface.shell_of_triangle, list(self.shells.voids))
 
     @cached_property
@@ -62,8 +68,16 @@ class Boundary:
         return self.samples.chosen(~self.of_cavity[self.samples.triangle])
 
     def at_openings(self, points: Floats) -> Flags:
-        """(k,): which points (k, 3) lie on a plug or in a bore right behind its mouth."""
-        result = np.zeros(len(points), dtype=bool)
+        """(k,): which points (k, 3) lie on a plug, in a bore behind its mouth, or at a leak."""
+        result = self.at_leaks(points)
         for opening in self.openings:
             result |= near_axis(points, opening, self.bore_depth)
         return result
+
+    def at_leaks(self, points: Floats) -> Flags:
+        """(k,): which points (k, 3) lie so near to a leak that walls end there."""
+        from scipy.spatial import cKDTree
+
+        if self.opened is None or not len(self.opened.rims):
+            return np.zeros(len(points), dtype=bool)
+        return np.asarray(cKDTree(self.opened.rims).query(points)[0] <= self.bore_depth)

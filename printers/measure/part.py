@@ -9,9 +9,12 @@ import numpy as np
 
 from printers.arrays import Flags
 from printers.measure.boundary import Boundary
+from printers.measure.leakage.leaks import OpenCavity, find_leaks
+from printers.measure.passage.air_passage import AirPassage, narrowest_passage
 from printers.measure.plugging import Sealing, seal
 from printers.measure.shells import Shells, split_shells
 from printers.measure.surface import Surface, merged_surface
+from printers.measure.thickness.local_thickness import LocalThickness, local_thickness
 from printers.measure.wall_survey import WallSurvey, survey_walls
 from printers.model import PrintedModel
 from printers.profile import PrinterProfile
@@ -61,10 +64,33 @@ class MeasuredPart:
         return seal(self.shells, self.model.openings)
 
     @cached_property
+    def opened(self) -> OpenCavity | None:
+        """The cavity, where it leaks although the openings are plugged, and the leaks are found."""
+        if not self.sealing.leaks:
+            return None
+        return find_leaks(self.sealing.closed.surface, self.sealing.openings)
+
+    @cached_property
     def boundary(self) -> Boundary:
         """The plugged surface, parted into the cavity's wall and the outside."""
         depth = BORE_DEPTH * max(self.profile.minimum_wall, self.profile.minimum_floor)
-        return Boundary(self.sealing.closed, self.sealing.openings, depth)
+        return Boundary(self.sealing.closed, self.sealing.openings, depth, self.opened)
+
+    @cached_property
+    def thickness(self) -> LocalThickness:
+        """Of the material below all of the surface, up to the thickest wall of perimeters alone."""
+        boundary, reach = self.boundary, self.profile.thickest_wall_of_lines + 0.1
+        return local_thickness(boundary.surface, boundary.samples, reach)
+
+    @cached_property
+    def passage(self) -> AirPassage | None:
+        """The narrowest passage of the cavity's air, which there must be; None if it has none."""
+        boundary, sealing = self.boundary, self.sealing
+        triangles = boundary.surface.triangles[boundary.of_cavity]
+        cavity = merged_surface(boundary.surface.vertices, triangles)
+        return narrowest_passage(
+            cavity, sealing.part.surface, boundary.openings, self.profile.minimum_gap
+        )
 
     @cached_property
     def walls(self) -> WallSurvey:

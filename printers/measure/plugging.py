@@ -35,6 +35,13 @@ class Sealing:
         before = self.part.surface.euler_characteristic()
         return (self.closed.surface.euler_characteristic() - before) // 2
 
+    @property
+    def leaks(self) -> bool:
+        """Whether the plugs closed openings of the part, and yet no cavity closes."""
+        joined = len(self.closed.bodies) <= len(self.part.bodies)
+        closed = bool(self.part.voids or self.closed.voids)
+        return bool(self.openings) and joined and not closed and self.openings_closed > 0
+
 
 def seal(part: Shells, openings: Sequence[Opening]) -> Sealing:
     """Plug the openings of a part. Raises PrintersError if its surface bounds no solid."""
@@ -83,7 +90,7 @@ def near_axis(points: Floats, opening: Opening, depth: float) -> Flags:
     along = offset @ axis
     beside = np.linalg.norm(offset - along[:, None] * axis, axis=1)
     slack = 1e-3
-    within = beside <= opening.radius + PLUG_MARGIN + slack
+    within = beside <= opening.plug_radius + PLUG_MARGIN + slack
     return (
         within & (along >= -max(depth, opening.radius) - slack) & (along <= opening.radius + slack)
     )
@@ -93,6 +100,6 @@ def _plug(opening: Opening) -> Manifold:
     from manifold3d import Manifold
 
     cylinder = Manifold.cylinder(
-        2 * opening.radius, opening.radius + PLUG_MARGIN, -1.0, PLUG_SIDES, True
+        2 * opening.radius, opening.plug_radius + PLUG_MARGIN, -1.0, PLUG_SIDES, True
     )
     return cylinder.transform(np.column_stack([frame_of(opening), opening.centre]))

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from printers.arrays import Floats
 from printers.measure.surface import Surface
 
 NEGLIGIBLE_VOLUME = 1e-3  # mm³: a cube of 0.1 mm, far below what one line can leave open
@@ -27,6 +28,15 @@ class Shells:
     def material(self) -> float:
         """Volume of the material in mm³."""
         return sum(self.bodies.values()) - sum(self.voids.values())
+
+    def bounds(self, shell: int) -> Floats:
+        """(2, 3) mm: lower and upper corner of the box around a shell."""
+        corners = self.surface.corners[self.surface.shell_of_triangle == shell]
+        return np.array([corners.min(axis=(0, 1)), corners.max(axis=(0, 1))])
+
+    def middle(self, shell: int) -> Floats:
+        """(3,) mm: the middle of that box."""
+        return np.asarray(self.bounds(shell).mean(axis=0))
 
 
 def split_shells(surface: Surface) -> Shells:

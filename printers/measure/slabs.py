@@ -54,6 +54,11 @@ class Slabs:
         )
 
     @property
+    def far(self) -> Floats:
+        """(k, 3) mm: the other end of every slab of material."""
+        return self.middle - self.thickness[:, None] / 2 * self.normal
+
+    @property
     def parallel(self) -> Flags:
         """(k,): faces within 8 degrees of parallel."""
         return np.asarray(self.facing >= PARALLEL)

@@ -72,6 +72,7 @@ def survey_walls(
     samples = boundary.inside if boundary.has_cavity else boundary.samples
     reach = max([profile.thickest_wall_of_lines, *(wall.thickness for wall in declared)]) + 0.1
     slabs = measure_slabs(surface, samples, "material", reach)
+    slabs = slabs.chosen(~boundary.at_leaks(slabs.far))
     return WallSurvey(slabs, tuple(_walls(surface, slabs, profile)))
 
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from printers.measure.leaks import Leak, find_leaks
+from printers.measure.leakage.leaks import Leak
 from printers.measure.part import MeasuredPart
 from printers.measure.plugging import Sealing
 from printers.report import RuleResult, Verdict, place
@@ -28,7 +28,7 @@ class Diagnosis:
 
 def check_airtightness(part: MeasuredPart) -> Iterator[RuleResult]:
     """Name what is wrong with the cavity, or report its volume."""
-    found = _diagnose(part.sealing)
+    found = _open_cavity(part) if part.sealing.leaks else _diagnose(part.sealing)
     count = len(part.sealing.openings)
     required = f"1 cavity, {max(count, 1)} opening{'s' if count > 1 else ''}"
     yield RuleResult(
@@ -50,10 +50,8 @@ def _diagnose(sealing: Sealing) -> Diagnosis:
         return Diagnosis("fail", nothing, mouths, message)
     if sealing.closed.voids:
         return _closed_cavities(sealing, names, mouths)
-    if sealing.openings_closed <= 0:
-        message = f"there is no opening at {names}, declared at {mouths}"
-        return Diagnosis("fail", nothing, mouths, message)
-    return _open_cavity(sealing, names)
+    message = f"there is no opening at {names}, declared at {mouths}"
+    return Diagnosis("fail", nothing, mouths, message)
 
 
 def _sealed_cavity(sealing: Sealing, names: str, mouths: str) -> Diagnosis:
@@ -62,18 +60,20 @@ def _sealed_cavity(sealing: Sealing, names: str, mouths: str) -> Diagnosis:
         message = f"no opening leads into the sealed cavity of {_volumes(sealed)} mm³"
         return Diagnosis("fail", f"{_cavities(sealed)}, 0 openings", mouths, message)
     reached = max(set(cavities.values()) - set(sealed.values()), default=0.0)
+    where = "; ".join(place(sealing.part.middle(shell)) for shell in sealed)
     message = (
-        f"{names} does not reach the sealed cavity of {_volumes(sealed)} mm³; "
+        f"{names} does not reach the sealed cavity of {_volumes(sealed)} mm³ at {where}; "
         f"it opens into a pocket of {reached:.1f} mm³"
     )
-    return Diagnosis("fail", _cavities(cavities), mouths, message)
+    return Diagnosis("fail", _cavities(cavities), where, message)
 
 
-def _open_cavity(sealing: Sealing, names: str) -> Diagnosis:
-    leaks = find_leaks(sealing.closed.surface, sealing.openings)
+def _open_cavity(part: MeasuredPart) -> Diagnosis:
+    names = " and ".join(opening.name for opening in part.sealing.openings)
+    leaks = part.opened.leaks if part.opened is not None else ()
     where = "; ".join(place(leak.centre) for leak in leaks[:5])
     message = f"the cavity leaks: with {names} plugged it is still open{_sizes(leaks)}"
-    found = f"0 closed cavities, {sealing.openings_closed + max(len(leaks), 1)} openings"
+    found = f"0 closed cavities, {part.sealing.openings_closed + max(len(leaks), 1)} openings"
     return Diagnosis("fail", found, where or "leak not located", message)
 
 

@@ -13,7 +13,7 @@ from printers.measure.samples import Samples
 from printers.measure.slabs import Slabs, measure_slabs
 from printers.model import DeclaredGap
 from printers.profile import PrinterProfile
-from printers.report import RuleResult, pass_or_fail, place
+from printers.report import RuleResult, at_least, pass_or_fail, place
 from printers.tolerances import FACET_TOLERANCE, SMALLEST_AREA
 
 FACING = float(np.cos(np.radians(30.0)))  # walls that open up more widely than this do not fuse
@@ -60,7 +60,7 @@ def _narrowest(rule: str, scope: str, slabs: Slabs, profile: PrinterProfile) -> 
     message = (
         f"the narrowest gap {_inside(scope)}, {width:.3f} mm at {where}, {_against(open_, profile)}"
     )
-    return _result(rule, open_, round(width, 3), profile.minimum_gap, where, message)
+    return at_least(rule, width, profile.minimum_gap, FACET_TOLERANCE, where, message)
 
 
 def _as_declared(gap: DeclaredGap, slabs: Slabs) -> RuleResult:

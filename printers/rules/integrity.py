@@ -9,8 +9,12 @@ import numpy as np
 from printers.arrays import Floats, Ints
 from printers.measure.box_tree import Crossings, crossings
 from printers.measure.part import MeasuredPart
+from printers.measure.shells import Shells
 from printers.measure.surface import Surface
-from printers.report import RuleResult, pass_or_fail, place
+from printers.report import RuleResult, Verdict, pass_or_fail, place
+
+SLIVER = 1e-5
+"""mm. Numbers of 32 bits, as an STL has them, are 0.8e-5 mm apart at 100 mm."""
 
 TOUCHING = 1e-5  # mm: less penetration than this is rounding of the coordinates
 
@@ -40,19 +44,48 @@ def check_self_intersection(part: MeasuredPart) -> Iterator[RuleResult]:
     yield RuleResult("self_intersection", verdict, count, 0, "crossings", where, message, 0.0)
 
 
+def check_slivers(part: MeasuredPart) -> Iterator[RuleResult]:
+    """A triangle lower than the numbers of an STL can tell is a line to a slicer, or a hole."""
+    surface = part.surface
+    sides = surface.corners - np.roll(surface.corners, 1, axis=1)
+    longest = np.linalg.norm(sides, axis=2).max(axis=1)
+    height = 2 * surface.areas / np.maximum(longest, 1e-300)
+    thin = np.flatnonzero(height < SLIVER)
+    where, message = "whole mesh", "no triangle is too thin for a slicer"
+    if len(thin):
+        where = place(surface.corners[thin[0]].mean(axis=0))
+        message = (
+            f"{len(thin)} triangles are lower than {SLIVER:g} mm, first at {where}: slicers drop "
+            "them"
+        )
+    verdict: Verdict = "warn" if len(thin) else "pass"
+    yield RuleResult("slivers", verdict, len(thin), 0, "triangles", where, message, 0.0)
+
+
 def check_one_body(part: MeasuredPart) -> Iterator[RuleResult]:
     """Exactly one shell may enclose material; an inside-out mesh encloses none."""
-    bodies = part.shells.bodies
-    count = len(bodies)
+    shells = part.shells
+    count, where = len(shells.bodies), "whole mesh"
     if count == 1:
-        message = f"one solid body of {part.shells.material:.1f} mm³"
+        message = f"one solid body of {shells.material:.1f} mm³"
     elif count == 0:
         message = "the surface is inside out: its normals point into the material"
     else:
-        volumes = ", ".join(f"{volume:.1f}" for volume in sorted(bodies.values())[::-1][:5])
-        message = f"the mesh holds {count} separate bodies (mm³: {volumes}); it must be one"
+        main, *others = sorted(shells.bodies, key=lambda shell: -shells.bodies[shell])
+        where = "; ".join(place(shells.middle(shell)) for shell in others[:5])
+        named = ", ".join(_described(shells, shell, main) for shell in others[:5])
+        message = f"the mesh holds {count} bodies; it must be one: beside the largest {named}"
     verdict = pass_or_fail(count == 1)
-    yield RuleResult("one_body", verdict, count, 1, "bodies", "whole mesh", message, 0.0)
+    yield RuleResult("one_body", verdict, count, 1, "bodies", where, message, 0.0)
+
+
+def _described(shells: Shells, shell: int, main: int) -> str:
+    """A body beside the `main` one; within it, it is rather a cavity whose shell is flipped."""
+    size = f"{shells.bodies[shell]:.1f} mm³ at {place(shells.middle(shell))}"
+    low, high = shells.bounds(main)
+    inner_low, inner_high = shells.bounds(shell)
+    within = bool((inner_low > low).all() and (inner_high < high).all())
+    return f"{size}, whose shell looks the wrong way if it is a cavity" if within else size
 
 
 def _bad_edges(surface: Surface) -> dict[str, Ints]:

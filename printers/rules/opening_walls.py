@@ -18,7 +18,7 @@ from printers.measure.samples import sample
 from printers.measure.surface import Surface, label
 from printers.model import DeclaredWall, Opening
 from printers.profile import PrinterProfile
-from printers.report import RuleResult, pass_or_fail
+from printers.report import RuleResult, against, at_least, pass_or_fail
 from printers.tolerances import FACET_TOLERANCE, ROUNDING, SMALLEST_AREA
 
 SAMPLES_PER_SQUARE_MILLIMETRE = 40.0
@@ -121,13 +121,11 @@ def _seals(
     if thickness is None:
         message = f"{wall.name}: there is no wall around {opening.name} to seal"
         return RuleResult("minimum_lines", "fail", "none", required, "mm", wall.name, message)
-    enough = thickness >= profile.minimum_wall - FACET_TOLERANCE - ROUNDING
+    tolerance, needed = FACET_TOLERANCE + ROUNDING, profile.minimum_wall
+    enough = thickness >= needed - tolerance
     message = (
         f"{wall.name}: the weakest place around {opening.name}, {thickness:.3f} mm, "
-        f"{'has' if enough else 'has less than'} the {made_of} that seal "
-        f"(facets may take {FACET_TOLERANCE:g} mm)"
+        f"{'has' if enough else 'has less than'} the {made_of} that seal, {needed:.3f} mm: "
+        f"{against(thickness, needed, tolerance)}"
     )
-    verdict, measured = pass_or_fail(enough), round(thickness, 3)
-    return RuleResult(
-        "minimum_lines", verdict, measured, required, "mm", wall.name, message, FACET_TOLERANCE
-    )
+    return at_least("minimum_lines", thickness, needed, tolerance, wall.name, message)

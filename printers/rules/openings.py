@@ -19,7 +19,7 @@ from printers.measure.closest_point import closest_on_segments
 from printers.measure.part import MeasuredPart
 from printers.measure.plugging import PLUG_MARGIN, PLUG_SIDES, frame_of, solid_of
 from printers.model import Opening
-from printers.report import RuleResult, pass_or_fail, place
+from printers.report import RuleResult, at_least, place
 from printers.tolerances import FACET_TOLERANCE
 
 if TYPE_CHECKING:
@@ -82,7 +82,4 @@ def _judge(opening: Opening, diameter: float | None, minimum_gap: float) -> Rule
         f"{'declared' if required > minimum_gap else 'that stay open when printed'} "
         f"(facets may take {FACET_TOLERANCE:g} mm on either side)"
     )
-    verdict, measured = pass_or_fail(good), round(diameter, 3)
-    return RuleResult(
-        "opening_width", verdict, measured, needed, "mm", where, message, 2 * FACET_TOLERANCE
-    )
+    return at_least("opening_width", diameter, required, 2 * FACET_TOLERANCE, where, message)

@@ -126,7 +126,14 @@ def _check_inside(overhangs: Overhangs) -> RuleResult:
         )
     unsure = round(overhangs.doubtful + overhangs.sampling, 1)
     return RuleResult(
-        "support", "pass", round(area, 1), "no support", "mm²", "cavity", message, unsure
+        "support",
+        "info" if area else "pass",
+        round(area, 1),
+        "no support",
+        "mm²",
+        "cavity",
+        message,
+        unsure,
     )
 
 

@@ -19,7 +19,7 @@ from printers.measure.boundary import Boundary
 from printers.measure.closest_point import closest_on_triangles
 from printers.measure.part import MeasuredPart
 from printers.profile import PrinterProfile
-from printers.report import RuleResult, pass_or_fail, place
+from printers.report import RuleResult, against, at_least, place
 from printers.tolerances import FACET_TOLERANCE, ROUNDING
 
 CANDIDATES = 8  # triangles looked at for the nearest one
@@ -81,16 +81,15 @@ def _judge(rule: str, thinnest: Thinnest | None, has_cavity: bool, made_of: str)
     if thinnest is None:
         message = "no wall lies this way" + scope
         return RuleResult(rule, "pass", "none", made_of, "mm", "whole part", message)
-    enough = thinnest.thickness >= thinnest.required - FACET_TOLERANCE - ROUNDING
-    where = place(thinnest.point)
+    thickness, required = thinnest.thickness, thinnest.required
+    tolerance, where = FACET_TOLERANCE + ROUNDING, place(thinnest.point)
+    enough = thickness >= required - tolerance
     message = (
-        f"the weakest place, {thinnest.thickness:.3f} mm at {where}, "
-        f"{'has' if enough else 'has less than'} the {made_of} that seal "
-        f"(facets may take {FACET_TOLERANCE:g} mm){scope}"
+        f"the weakest place, {thickness:.3f} mm at {where}, "
+        f"{'has' if enough else 'has less than'} the {made_of} that seal, {required:.3f} mm "
+        f"that way: {against(thickness, required, tolerance)}{scope}"
     )
-    measured, required = round(thinnest.thickness, 3), round(thinnest.required, 3)
-    verdict = pass_or_fail(enough)
-    return RuleResult(rule, verdict, measured, required, "mm", where, message, FACET_TOLERANCE)
+    return at_least(rule, thickness, required, tolerance, where, message)
 
 
 def _cavity_points(boundary: Boundary) -> Floats:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+from dataclasses import fields
 from types import SimpleNamespace
 from typing import Any
 
@@ -19,6 +20,7 @@ from printers import (
     PrintedModel,
     PrinterProfile,
     PrintersError,
+    RuleResult,
     check_printability,
     load_profile,
 )
@@ -82,7 +84,7 @@ def test_the_report_is_plain_json(solids: SimpleNamespace, prusa: PrinterProfile
     assert data["printer"] == "prusa_i3"
     assert data["verdict"] == report.verdict
     assert len(data["rules"]) == len(report.rules)
-    keys = {"rule", "verdict", "measured", "required", "unit", "where", "message", "uncertainty"}
+    keys = {field.name for field in fields(RuleResult)}
     assert all(set(rule) == keys for rule in data["rules"])
 
 

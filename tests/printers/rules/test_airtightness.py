@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from printers import Opening, PrinterProfile, RuleResult, load_profile
-from printers.measure.leaks import find_leaks
+from printers.measure.leakage.leaks import find_leaks
 from printers.measure.plugging import Sealing
 from printers.rules.airtightness import check_airtightness
 
@@ -139,7 +139,9 @@ def test_a_hole_in_the_roof_is_found_where_it_is(
     result = judged(solids, leaking, solids.port_of())
     assert (result.verdict, result.measured) == ("fail", "0 closed cavities, 2 openings")
     closed = sealing(solids, leaking, solids.port_of()).closed
-    (leak,) = find_leaks(closed.surface, (solids.port_of(),))
+    found = find_leaks(closed.surface, (solids.port_of(),))
+    assert found is not None
+    (leak,) = found.leaks
     assert np.allclose(leak.centre[:2], (x, y), atol=0.02)
     assert 9.2 - 1e-6 <= leak.centre[2] <= 10.4 + 1e-6
     assert leak.width == pytest.approx(2 * radius, rel=0.01)

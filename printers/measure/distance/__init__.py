@@ -1,0 +1,1 @@
+"""Distances to a triangle surface, exactly."""

@@ -1,0 +1,1 @@
+"""Where a cavity that does not close is open."""

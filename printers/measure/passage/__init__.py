@@ -1,0 +1,1 @@
+"""How narrow the ways are that air must take through a cavity."""

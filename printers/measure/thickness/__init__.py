@@ -1,0 +1,1 @@
+"""How thick the material is, everywhere on a surface."""

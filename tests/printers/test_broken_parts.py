@@ -1,0 +1,75 @@
+"""Every deliberately broken part is caught by the right rule at the right place, no sound one."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from broken_parts import BROKEN, SOUND, BrokenPart
+
+from printers import (
+    PrintabilityReport,
+    PrintedModel,
+    PrinterProfile,
+    RuleResult,
+    check_printability,
+)
+
+PAGE = Path(__file__).parents[2] / "docs" / "printability.md"
+POINT = re.compile(r"\(([-\d.]+), ([-\d.]+), ([-\d.]+)\) mm")
+NEAR = 1.0  # mm
+
+
+def checked(part: BrokenPart, profile: PrinterProfile) -> PrintabilityReport:
+    model = PrintedModel(part.vertices, part.triangles, openings=(part.opening,))
+    return check_printability(model, profile)
+
+
+def places(result: RuleResult) -> Iterator[tuple[float, ...]]:
+    for found in POINT.finditer(result.where):
+        yield tuple(float(number) for number in found.groups())
+
+
+def is_all_of_it(part: BrokenPart) -> bool:
+    """Whether the fault is everywhere, so that no place can be named."""
+    return bool(np.allclose(part.place, [part.vertices.min(axis=0), part.vertices.max(axis=0)]))
+
+
+@pytest.mark.parametrize("name", BROKEN)
+def test_the_fault_is_caught_by_its_rule_at_its_place(name: str, prusa: PrinterProfile) -> None:
+    part = BROKEN[name]()
+    report = checked(part, prusa)
+    caught = [r for r in report.rules if (r.rule, r.verdict) == (part.rule, part.verdict)]
+    assert caught, [(r.rule, r.verdict) for r in report.rules if r.verdict not in ("pass", "info")]
+    nearest = min((part.distance(p) for r in caught for p in places(r)), default=np.inf)
+    assert nearest <= NEAR or is_all_of_it(part), [result.where for result in caught]
+
+
+LEAKS = ("pin hole", "slit", "root")
+
+
+@pytest.mark.parametrize("name", [name for name in BROKEN if name.startswith(LEAKS)])
+def test_a_leak_alone_makes_no_other_rule_fail(name: str, prusa: PrinterProfile) -> None:
+    failures = {result.rule for result in checked(BROKEN[name](), prusa).failures}
+    assert failures == {"airtightness"}
+
+
+@pytest.mark.parametrize("make", SOUND.values(), ids=SOUND)
+def test_the_sound_parts_raise_no_alarm(
+    make: Callable[[], BrokenPart], prusa: PrinterProfile
+) -> None:
+    report = checked(make(), prusa)
+    assert report.verdict == "pass", report.failures
+    assert {warning.rule for warning in report.warnings} <= {"overhang"}  # under round bubbles
+
+
+def test_the_detection_table_lists_every_broken_part_with_its_rule() -> None:
+    rows = dict(re.findall(r"^\| ([^|]+) \| (`[^|]+) \|$", PAGE.read_text("utf-8"), re.MULTILINE))
+    expected = {
+        name: f"`{part.rule}`{' warns' if part.verdict == 'warn' else ''}"
+        for name, part in ((name, make()) for name, make in BROKEN.items())
+    }
+    assert {name: rows.get(name) for name in BROKEN} == expected
