@@ -1,0 +1,106 @@
+"""The leak test on a slicer's G-code, as far as the verdict knows it.
+
+A ``LeakTester`` slices the part with the settings of the design's printer and says whether air gets
+out. Where there is none, ``Unavailable`` says why. What became of the test, also that it was not
+run, is a ``LeakTest``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, dataclass, field
+from typing import Any, Literal
+
+from bellows_design.design.conditions import LeakTestSetting
+from bellows_design.design.design import Design
+from bellows_design.geometry.tessellation import ClosedMesh
+from printers.report import RuleResult
+
+RULE = "leak_test"
+"""Name of the rule where the test itself is missing."""
+
+Result = Literal["pass", "warn", "fail", "not run"]
+
+
+@dataclass(frozen=True)
+class LeakOutcome:
+    """What a slicer made of the part, and what the leak test found in it.
+
+    Attributes:
+        slicer: Name of the program.
+        version: Of the program.
+        profile_sha256: Of the settings that it was given.
+        rules: Every rule of the leak test: a failed one speaks against the design.
+        figures: What was measured, plain values for JSON, without times.
+        seconds: What slicing and testing took, s.
+    """
+
+    slicer: str
+    version: str
+    profile_sha256: str
+    rules: tuple[RuleResult, ...]
+    figures: Mapping[str, Any] = field(default_factory=dict)
+    seconds: float = 0.0
+
+
+@dataclass(frozen=True)
+class Unavailable:
+    """There is no leak test here; ``why`` as the end of a sentence."""
+
+    why: str
+
+
+LeakTester = Callable[[Design, ClosedMesh], LeakOutcome]
+"""Slices the printed part of a design and tests it. Raises ``PrintersError`` if it cannot."""
+
+
+@dataclass(frozen=True)
+class LeakTest:
+    """What became of the leak test of a design.
+
+    Attributes:
+        setting: What the design asks for.
+        outcome: What was found; None if it was not run.
+        why: Why it was not run, as the end of a sentence; empty if it was.
+        failed: True if it was begun and could not be finished.
+    """
+
+    setting: LeakTestSetting
+    outcome: LeakOutcome | None = None
+    why: str = ""
+    failed: bool = False
+
+    @property
+    def result(self) -> Result:
+        """The worst verdict among its rules."""
+        if self.outcome is None:
+            return "not run"
+        found = {rule.verdict for rule in self.outcome.rules}
+        return "fail" if "fail" in found else "warn" if "warn" in found else "pass"
+
+    @property
+    def rules(self) -> tuple[RuleResult, ...]:
+        """Those that were applied."""
+        return () if self.outcome is None else self.outcome.rules
+
+    def summary(self) -> dict[str, Any]:
+        """Setting, result and, if it was not run, why: plain values for JSON."""
+        return {"setting": self.setting, "result": self.result, "why": self.why or None}
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain values for JSON, without times."""
+        if self.outcome is None:
+            return self.summary()
+        outcome = self.outcome
+        return self.summary() | {
+            "slicer": outcome.slicer,
+            "slicer_version": outcome.version,
+            "profile_sha256": outcome.profile_sha256,
+            "rules": [asdict(rule) for rule in outcome.rules],
+            "figures": dict(outcome.figures),
+        }
+
+
+def usual_tester() -> LeakTester | Unavailable:
+    """The leak test with the slicer of this machine."""
+    return Unavailable("this version has no leak test")
