@@ -1,10 +1,12 @@
-"""What a design declares to the printability rules: its walls, gaps and one opening."""
+"""What a design declares to the printability rules, its walls, gaps and one opening; their report."""
 
 from __future__ import annotations
 
+from typing import Any
+
 from bellows_design.design.design import Design
 from bellows_design.geometry.tessellation import ClosedMesh
-from printers import DeclaredGap, DeclaredWall, Opening, PrintedModel
+from printers import DeclaredGap, DeclaredWall, Opening, PrintabilityReport, PrintedModel
 
 
 def printed_model(design: Design, mesh: ClosedMesh) -> PrintedModel:
@@ -43,3 +45,8 @@ def port_opening(design: Design) -> Opening:
         direction=(-1.0, 0.0, 0.0),
         radius=port.tube_diameter / 2,
     )
+
+
+def check_dict(design: Design, report: PrintabilityReport) -> dict[str, Any]:
+    """The report on ``design`` as plain values for JSON."""
+    return {"design": design.name, "digest": design.digest, **report.to_dict()}

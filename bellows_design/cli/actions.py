@@ -81,6 +81,7 @@ def design(options: DesignOptions, output: Path) -> Answer:
 def check(options: DesignOptions) -> Answer:
     """Check the part on its printer."""
     from bellows_design import pipeline
+    from bellows_design.printability import check_dict
     from bellows_design.progress import on_stderr
     from bellows_design.reports.check import check_table
 
@@ -93,7 +94,7 @@ def check(options: DesignOptions) -> Answer:
         progress.stage("check")
         report = pipeline.check(chosen, part)
     status = DONE if report.verdict == "pass" else REFUSED
-    return Answer(pipeline.check_dict(chosen, report), check_table(chosen, report), status)
+    return Answer(check_dict(chosen, report), check_table(chosen, report), status)
 
 
 def evaluate(
@@ -169,7 +170,8 @@ def run(options: DesignOptions, output: Path, limits: BudgetOptions, cached: boo
     with solving() as progress:
         store = usual_store(progress) if cached else None
         outcome = pipeline.run(chosen, output, progress, budget, store)
-    refused = REFUSED if outcome.evaluation.converged else NOT_SOLVED
+    unsolved = outcome.evaluation is not None and not outcome.evaluation.converged
+    refused = NOT_SOLVED if unsolved else REFUSED
     status = DONE if outcome.verdict.approved else refused
     return Answer(outcome.to_dict(), outcome_table(outcome), status)
 
