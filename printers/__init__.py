@@ -9,26 +9,39 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from printers.errors import PrintersError
-from printers.profile import PrinterProfile, SlicerAdvice
-from printers.profile_files import available_profiles, load_profile
+from printers.profile import Filament, PrinterProfile, SlicerAdvice
+from printers.profile_files import (
+    available_filaments,
+    available_profiles,
+    load_filament,
+    load_profile,
+    profile_from_table,
+)
 from printers.report import PrintabilityReport, RuleResult
+from printers.rule_table import RULES, Rule
 
 if TYPE_CHECKING:
     from printers.model import DeclaredGap, DeclaredWall, Opening, PrintedModel
 
 __all__ = [
+    "RULES",
     "DeclaredGap",
     "DeclaredWall",
+    "Filament",
     "Opening",
     "PrintabilityReport",
     "PrintedModel",
     "PrinterProfile",
     "PrintersError",
+    "Rule",
     "RuleResult",
     "SlicerAdvice",
+    "available_filaments",
     "available_profiles",
     "check_printability",
+    "load_filament",
     "load_profile",
+    "profile_from_table",
 ]
 
 

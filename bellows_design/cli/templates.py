@@ -27,6 +27,7 @@ EXAMPLES: Mapping[str, Any] = {
     "valid_strain": [-0.5, 2.0],
     "fit_error": 3.0,
     "fit_modulus_error": 3.0,
+    "rules": {"overhang": "fail"},
 }
 """Values for optional keys that the shipped ones leave out."""
 
@@ -79,10 +80,12 @@ def _printer() -> tuple[list[str], type[BaseModel], dict[str, Any]]:
     from printers import PrinterProfile, load_profile
 
     values = load_profile(PRINTER).model_dump(mode="json")
-    values["slicer"]["sources"] = [f"copied from {PRINTER}: replace by your own"]
+    for table in ("slicer", "filament"):
+        values[table]["sources"] = [f"copied from {PRINTER}: replace by your own"]
     header = [
         "A printer with its nozzle. Lengths in mm, angles in degrees.",
         'Use it with --printer FILE, or in a design as printer = "FILE".',
+        "Keys may be left out that are as on a printer which the key extends names.",
         f"The numbers are those of the shipped profile {PRINTER}: replace them by your own.",
     ]
     return header, PrinterProfile, values | {"description": f"Copied from {PRINTER}"}
@@ -122,9 +125,16 @@ def _table(model: type[BaseModel], values: Mapping[str, Any], path: str) -> Iter
 def _key(name: str, field: FieldInfo, value: Any) -> Iterator[str]:
     """A comment on the key, and the key; commented out where its value is left open."""
     yield f"# {'; '.join(_about(field))}"
-    empty = value is None or value == []
+    empty = value is None or value in ([], {})
     shown = EXAMPLES.get(name, value) if empty else value
-    yield f"{'# ' * empty}{name} = {json.dumps(shown, ensure_ascii=False)}"
+    yield f"{'# ' * empty}{name} = {_as_toml(shown)}"
+
+
+def _as_toml(value: Any) -> str:
+    """The value as it stands in TOML, on one line."""
+    if isinstance(value, Mapping):
+        return "{ " + ", ".join(f"{key} = {_as_toml(inner)}" for key, inner in value.items()) + " }"
+    return json.dumps(value, ensure_ascii=False)
 
 
 def _about(field: FieldInfo) -> Iterator[str]:

@@ -25,7 +25,7 @@ from bellows_design.materials.material import Material
 from bellows_design.validation.parameters import Parameters, require
 from bellows_design.validation.quoting import quoted
 from bellows_design.validation.sentences import sentences
-from printers import PrinterProfile, PrintersError, load_profile
+from printers import PrinterProfile, PrintersError, load_profile, profile_from_table
 
 _SLUG = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_-]{0,63}")
 _WINDOWS_DEVICE = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)", re.IGNORECASE)
@@ -38,7 +38,7 @@ def is_toml(name_or_path: str) -> bool:
 
 def _profile_of(table: Mapping[str, Any]) -> PrinterProfile:
     try:
-        return PrinterProfile(**table)
+        return profile_from_table(table)
     except PrintersError as error:
         raise ValueError(f"printer: {error}") from None
 

@@ -22,6 +22,9 @@ LABELS = {
     "printer.name",
     "printer.description",
     "printer.slicer.sources",
+    "printer.filament.name",
+    "printer.filament.description",
+    "printer.filament.sources",
 }
 """Fields that name a design without changing what is built or decided."""
 

@@ -15,8 +15,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import printers
-from printers import PrinterProfile, PrintersError, load_profile
-from printers.profile_files import LARGEST_FILE
+from printers import PrintersError, load_profile, profile_from_table
+from printers.library.reading import LARGEST_FILE
 
 LONGEST_LINE = 1000
 BASE = (Path(printers.__file__).parent / "profiles" / "prusa_i3.toml").read_bytes()
@@ -123,4 +123,4 @@ def test_any_table_is_a_profile_or_refused_in_one_line(data: st.DataObject) -> N
         target = data.draw(st.sampled_from([table, slicer if isinstance(slicer, dict) else table]))
         key = data.draw(st.sampled_from([*target, "self"]) | st.text(max_size=8))
         target[key] = data.draw(VALUES)
-    refused_in_one_line(lambda: PrinterProfile(**table))
+    refused_in_one_line(lambda: profile_from_table(table))

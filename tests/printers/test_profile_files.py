@@ -12,7 +12,7 @@ import pytest
 
 import printers
 from printers import PrintersError, available_profiles, load_profile
-from printers.profile_files import LARGEST_FILE
+from printers.library.reading import LARGEST_FILE
 
 PROFILES = Path(printers.__file__).parent / "profiles"
 
@@ -115,3 +115,92 @@ def test_a_file_in_a_zipped_package_is_guarded_like_any_other(
             load_profile("delta")
     finally:
         sys.modules.pop("lab_printers", None)
+
+
+def write(folder: Path, name: str, text: str) -> Path:
+    path = folder / f"{name}.toml"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_a_profile_extends_another_over_several_levels(tmp_path: Path) -> None:
+    write(tmp_path, "wide", 'extends = "nozzle_0_6"\nname = "wide"\nline_width = 0.7')
+    mine = write(
+        tmp_path,
+        "mine",
+        'extends = "wide.toml"\nname = "mine"\n[slicer]\nfan = 0.0\n[rules]\noverhang = "info"',
+    )
+    profile, base = load_profile(mine), load_profile("nozzle_0_6")
+    assert (profile.name, profile.line_width, profile.slicer.fan) == ("mine", 0.7, 0.0)
+    assert profile.description == base.description
+    assert profile.slicer.print_speed == base.slicer.print_speed
+    assert profile.severity("overhang") == "info"
+
+
+def test_an_heir_does_not_take_the_name_it_extends(tmp_path: Path) -> None:
+    with pytest.raises(PrintersError, match="'name' is missing"):
+        load_profile(write(tmp_path, "mine", 'extends = "prusa_i3"'))
+
+
+@pytest.mark.parametrize("names", [["a"], ["a", "b"], ["a", "b", "c"]])
+def test_files_that_extend_each_other_in_a_circle_are_refused(
+    tmp_path: Path, names: list[str]
+) -> None:
+    for name, following in zip(names, [*names[1:], names[0]], strict=True):
+        write(tmp_path, name, f'extends = "./{following}.toml"\nname = "{name}"')
+    with pytest.raises(PrintersError, match=r"a\.toml.*circle.*a\.toml > ") as error:
+        load_profile(tmp_path / "a.toml")
+    assert "\n" not in str(error.value)
+
+
+def test_a_chain_that_nobody_wrote_by_hand_is_refused(tmp_path: Path) -> None:
+    for number in range(20):
+        write(tmp_path, f"n{number}", f'extends = "n{number + 1}.toml"')
+    with pytest.raises(PrintersError, match="more than 10 files"):
+        load_profile(tmp_path / "n0.toml")
+
+
+@pytest.mark.parametrize(
+    ("parent", "words"),
+    [
+        (None, "there is no printer profile file"),
+        ("x = " + "[" * 900_000, "cannot be read"),
+        ("#" * (LARGEST_FILE + 1), "larger than 1 MB"),
+        ('extends = "nobody"', "no printer profile 'nobody'"),
+        ('extends = "prusa_i3"\nline_width = true', "line_width is true"),
+    ],
+)
+def test_what_is_extended_is_guarded_like_any_other_file(
+    tmp_path: Path, parent: str | None, words: str
+) -> None:
+    if parent is not None:
+        write(tmp_path, "parent", parent)
+    mine = write(tmp_path, "mine", 'extends = "parent.toml"\nname = "mine"')
+    with pytest.raises(PrintersError, match=words) as error:
+        load_profile(mine)
+    assert "mine.toml" in str(error.value) and "\n" not in str(error.value)
+
+
+def test_paths_count_from_the_file_that_names_them(tmp_path: Path) -> None:
+    (tmp_path / "lab").mkdir()
+    write(tmp_path / "lab", "soft", 'extends = "ninjaflex_85a"\nname = "soft"\nflow = 125.0')
+    write(
+        tmp_path / "lab",
+        "base",
+        'extends = "prusa_i3"\nname = "base"\nfilament = "soft.toml"',
+    )
+    mine = write(tmp_path, "mine", 'extends = "lab/base.toml"\nname = "mine"')
+    filament = load_profile(mine).filament
+    assert (filament.name, filament.flow, filament.density) == ("soft", 125, 1.19)
+
+
+@pytest.mark.parametrize(
+    "content", [None, "density = ", "density = 1.2", 'extends = "./mine.toml"']
+)
+def test_a_missing_or_broken_filament_is_named(tmp_path: Path, content: str | None) -> None:
+    if content is not None:
+        write(tmp_path, "soft", content.replace("mine", "soft"))
+    mine = write(tmp_path, "mine", 'extends = "prusa_i3"\nname = "mine"\nfilament = "soft.toml"')
+    with pytest.raises(PrintersError, match=r"mine\.toml.*soft\.toml") as error:
+        load_profile(mine)
+    assert "\n" not in str(error.value)

@@ -14,12 +14,12 @@ from bellows_design.cli.templates import Kind, name_from, template
 from bellows_design.design import BellowsParameters, Design, Indent, Limits, Load, Port, load_design
 from bellows_design.materials.library import material_at
 from bellows_design.materials.material import Material
-from printers import PrinterProfile, SlicerAdvice, load_profile
+from printers import Filament, PrinterProfile, SlicerAdvice, load_profile, profile_from_table
 
 Bellows = Callable[..., tuple[int, str, str]]
 RECORDS = {
     Kind.DESIGN: (Design, BellowsParameters, Indent, Port, Load, Limits),
-    Kind.PRINTER: (PrinterProfile, SlicerAdvice),
+    Kind.PRINTER: (PrinterProfile, SlicerAdvice, Filament),
     Kind.MATERIAL: (Material,),
 }
 
@@ -83,6 +83,8 @@ def test_the_files_are_loaded_and_describe_what_is_shipped(
 def test_options_that_are_commented_out_may_be_taken_in() -> None:
     design = Design.from_toml(with_options(template(Kind.DESIGN, "mine")))
     assert design.bellows.number_of_bubbles == 7 and design.limits.max_von_mises == 4.0
+    printer = tomllib.loads(with_options(template(Kind.PRINTER, "mine")))
+    assert profile_from_table(printer).severity("overhang") == "fail"
     Material.model_validate(tomllib.loads(with_options(template(Kind.MATERIAL, "mine"))))
 
 
