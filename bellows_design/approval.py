@@ -120,15 +120,19 @@ def refused_for_want_of_a_slicer(
     return Verdict((*_print_reasons(report), missing), tuple(design.material.warnings))
 
 
+def without_evaluation(report: PrintabilityReport) -> Verdict:
+    """What the printability alone says: no approval, as nothing else is judged."""
+    left_out = NotJudged("evaluation", "it was left out")
+    return Verdict(_print_reasons(report), not_judged=(left_out,))
+
+
 def with_leak_test(verdict: Verdict, test: LeakTest) -> Verdict:
     """The verdict once the leak test is over, or was left out."""
     if test.outcome is None:
         return _without_leak_test(verdict, test)
     failed = tuple(_failed(rule) for rule in test.rules if rule.verdict == "fail")
     warned = tuple(rule.message for rule in test.rules if rule.verdict == "warn")
-    return replace(
-        verdict, reasons=verdict.reasons + failed, warnings=verdict.warnings + warned
-    )
+    return replace(verdict, reasons=verdict.reasons + failed, warnings=verdict.warnings + warned)
 
 
 def _without_leak_test(verdict: Verdict, test: LeakTest) -> Verdict:
@@ -193,9 +197,7 @@ def _print_reasons(report: PrintabilityReport) -> tuple[Reason, ...]:
 
 
 def _failed(rule: RuleResult) -> Reason:
-    return Reason(
-        "printability", rule.rule, rule.measured, rule.required, rule.unit, rule.message
-    )
+    return Reason("printability", rule.rule, rule.measured, rule.required, rule.unit, rule.message)
 
 
 def _history_reasons(state: LoadedState) -> tuple[Reason, ...]:

@@ -83,9 +83,19 @@ class LeakTest:
         """Those that were applied."""
         return () if self.outcome is None else self.outcome.rules
 
+    @property
+    def slicer(self) -> str | None:
+        """Name and version of the program; None if the test was not run."""
+        return None if self.outcome is None else f"{self.outcome.slicer} {self.outcome.version}"
+
     def summary(self) -> dict[str, Any]:
-        """Setting, result and, if it was not run, why: plain values for JSON."""
-        return {"setting": self.setting, "result": self.result, "why": self.why or None}
+        """Setting, result, slicer and, if it was not run, why: plain values for JSON."""
+        return {
+            "setting": self.setting,
+            "result": self.result,
+            "why": self.why or None,
+            "slicer": self.slicer,
+        }
 
     def to_dict(self) -> dict[str, Any]:
         """Plain values for JSON, without times."""
@@ -93,8 +103,6 @@ class LeakTest:
             return self.summary()
         outcome = self.outcome
         return self.summary() | {
-            "slicer": outcome.slicer,
-            "slicer_version": outcome.version,
             "profile_sha256": outcome.profile_sha256,
             "rules": [asdict(rule) for rule in outcome.rules],
             "figures": dict(outcome.figures),

@@ -59,5 +59,7 @@ def _stl(part: Part) -> bytes:
     return header + export_stl(mesh)[80:]
 
 
-WRITERS: Mapping[str, Writer] = MappingProxyType({".stl": _stl, ".3mf": three_mf, ".step": step_file})
+WRITERS: Mapping[str, Writer] = MappingProxyType(
+    {".stl": _stl, ".3mf": three_mf, ".step": step_file}
+)
 """Suffix -> writer."""

@@ -29,7 +29,11 @@ class Placement:
     @property
     def rows(self) -> list[list[float]]:
         """(4, 3): what x, y and z become, and the move; a point is a row before them."""
-        turn = [[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]] if self.turned else [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]
+        turn = (
+            [[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]]
+            if self.turned
+            else [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]
+        )
         return [*turn, [0.0, 0.0, 1.0], list(self.move)]
 
     def __call__(self, points: NDArray[np.float64]) -> NDArray[np.float64]:

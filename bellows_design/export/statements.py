@@ -37,11 +37,7 @@ def grounds(found: Outcome) -> dict[str, Any]:
 
 def companions(found: Outcome) -> dict[str, bytes]:
     """The files that go with the part."""
-    return (
-        leak_test_file(found.leak_test)
-        | settings_files(found.part)
-        | sheet_files(found)
-    )
+    return leak_test_file(found.leak_test) | settings_files(found.part) | sheet_files(found)
 
 
 def run_statement(found: Outcome) -> dict[str, Any]:

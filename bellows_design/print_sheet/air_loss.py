@@ -56,7 +56,7 @@ def hole_of_loss(states: Sequence[State], pressure: float, loss: float, seconds:
 def _mass(states: Sequence[State], pressure: float) -> float:
     """Air in the cavity, kg, its volume interpolated between the states."""
     known = sorted((abs(each.pressure_mpa), each.cavity_volume_mm3) for each in states)
-    volume = np.interp(abs(pressure), *zip(*known, strict=True))
+    volume = np.interp(abs(pressure), [row[0] for row in known], [row[1] for row in known])
     return float((ATMOSPHERE + pressure) * volume * 1e-3 / GAS_TIMES_TEMPERATURE)
 
 

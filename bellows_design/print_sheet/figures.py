@@ -103,7 +103,9 @@ def figures_of(found: Outcome, evaluation: Evaluation) -> Figures:
         walls=_walls(found.design, profile),
         angles=_angles(evaluation),
         highest_stress=(evaluation.max_von_mises_mpa, error),
-        volume_at_rest=next((each.cavity_volume_mm3 for each in path if not each.pressure_mpa), None),
+        volume_at_rest=next(
+            (each.cavity_volume_mm3 for each in path if not each.pressure_mpa), None
+        ),
         volume_under_pressure=evaluation.cavity_volume_mm3,
         hole=_hole(path, evaluation.pressure_mpa),
         warnings=found.verdict.warnings,
