@@ -95,6 +95,8 @@ def _joined(parent: Mapping[str, Any], own: Mapping[str, Any]) -> dict[str, Any]
     joined = dict(parent)
     for key, value in own.items():
         below = joined.get(key)
-        both = isinstance(value, Mapping) and isinstance(below, Mapping)
-        joined[key] = _joined(below, value) if both else value
+        if isinstance(value, Mapping) and isinstance(below, Mapping):
+            joined[key] = _joined(below, value)
+        else:
+            joined[key] = value
     return joined
