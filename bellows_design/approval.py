@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, Any, Literal
 from bellows_design.analysis.error_estimate import LEAST_STRESS_ERROR
 from bellows_design.design.conditions import LEAST_PRESSURE
 from bellows_design.design.design import Design
-from bellows_design.leak_test import RULE, LeakTest, Unavailable
+from bellows_design.leak_test.record import RULE, LeakTest, Unavailable
 from printers import PrintabilityReport, RuleResult
 
 if TYPE_CHECKING:
@@ -127,11 +127,17 @@ def without_evaluation(report: PrintabilityReport) -> Verdict:
 
 
 def with_leak_test(verdict: Verdict, test: LeakTest) -> Verdict:
-    """The verdict once the leak test is over, or was left out."""
+    """The verdict once the leak test is over, or was left out.
+
+    Warnings name rules alone: their figures are those of one run of the slicer.
+    """
     if test.outcome is None:
         return _without_leak_test(verdict, test)
     failed = tuple(_failed(rule) for rule in test.rules if rule.verdict == "fail")
-    warned = tuple(rule.message for rule in test.rules if rule.verdict == "warn")
+    warned = tuple(
+        f"The leak test warns: {rule}."
+        for rule in dict.fromkeys(rule.rule for rule in test.rules if rule.verdict == "warn")
+    )
     return replace(verdict, reasons=verdict.reasons + failed, warnings=verdict.warnings + warned)
 
 

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from bellows_design.analysis.evaluation import Evaluation
     from bellows_design.approval import Verdict
     from bellows_design.export.part import Part
-    from bellows_design.leak_test import LeakTest
+    from bellows_design.leak_test.record import LeakTest
     from printers.report import PrintabilityReport
 
 

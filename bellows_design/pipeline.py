@@ -1,4 +1,4 @@
-"""All stages in order: the part, its printability, its evaluation, the leak test, the verdict, files.
+"""All stages in order: part, printability, evaluation, leak test, verdict, files.
 
 ``examine`` finds out, ``run`` writes what follows from it.
 """
@@ -19,7 +19,7 @@ from bellows_design.progress import SILENCE, Progress
 if TYPE_CHECKING:
     from bellows_design.analysis.evaluation import Evaluation, LoadedState
     from bellows_design.approval import Verdict
-    from bellows_design.leak_test import LeakTest, LeakTester, Unavailable
+    from bellows_design.leak_test.record import LeakTest, LeakTester, Unavailable
     from bellows_design.store.store import Store
     from printers.report import PrintabilityReport
 
@@ -76,7 +76,8 @@ def examine(
     Arguments and errors are those of ``run``.
     """
     from bellows_design.approval import decide, refused_for_want_of_a_slicer, with_leak_test
-    from bellows_design.leak_test import LeakTest, Unavailable, usual_tester
+    from bellows_design.leak_test.record import LeakTest, Unavailable
+    from bellows_design.leak_test.slicer import usual_tester
 
     tester = usual_tester() if leak_tester is None else leak_tester
     progress.stage("geometry")
@@ -117,7 +118,7 @@ def _leak_test(
     progress: Progress,
 ) -> LeakTest:
     """The leak test, or why it was left out."""
-    from bellows_design.leak_test import LeakTest, Unavailable
+    from bellows_design.leak_test.record import LeakTest, Unavailable
     from printers.errors import PrintersError
 
     setting = design.limits.leak_test

@@ -1,4 +1,4 @@
-"""What a design declares to the printability rules, its walls, gaps and one opening; their report."""
+"""What a design declares to the printability rules: walls, gaps and one opening. Their report."""
 
 from __future__ import annotations
 
@@ -6,7 +6,14 @@ from typing import Any
 
 from bellows_design.design.design import Design
 from bellows_design.geometry.tessellation import ClosedMesh
-from printers import DeclaredGap, DeclaredWall, Opening, PrintabilityReport, PrintedModel
+from printers import (
+    DeclaredGap,
+    DeclaredWall,
+    Opening,
+    PrintabilityReport,
+    PrintedModel,
+    PrinterProfile,
+)
 
 
 def printed_model(design: Design, mesh: ClosedMesh) -> PrintedModel:
@@ -45,6 +52,13 @@ def port_opening(design: Design) -> Opening:
         direction=(-1.0, 0.0, 0.0),
         radius=port.tube_diameter / 2,
     )
+
+
+def turned_to_fit(mesh: ClosedMesh, profile: PrinterProfile) -> bool:
+    """Whether the part lies across the bed: longer than it is wide, but not than it is deep."""
+    extents = mesh.vertices.max(axis=0) - mesh.vertices.min(axis=0)
+    (length, width, _), bed = extents, profile.build_volume
+    return bool(length > bed[0] and length <= bed[1] and width <= bed[0])
 
 
 def check_dict(design: Design, report: PrintabilityReport) -> dict[str, Any]:

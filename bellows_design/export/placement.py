@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bellows_design.export.part import Part
+from bellows_design.printability import turned_to_fit
 
 
 @dataclass(frozen=True)
@@ -50,8 +51,7 @@ def placement(part: Part) -> Placement:
     if part.profile is None:
         return STANDING_AS_MADE
     low, high = part.mesh.vertices.min(axis=0), part.mesh.vertices.max(axis=0)
-    (length, width, _), bed = high - low, part.profile.build_volume
-    turned = bool(length > bed[0] and length <= bed[1] and width <= bed[0])
+    bed, turned = part.profile.build_volume, turned_to_fit(part.mesh, part.profile)
     extent = Placement(turned, (0.0, 0.0, 0.0))(np.array([low, high]))
     middle = extent.mean(axis=0)
     move = (bed[0] / 2 - middle[0], bed[1] / 2 - middle[1], -low[2])

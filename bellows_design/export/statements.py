@@ -42,13 +42,12 @@ def companions(found: Outcome) -> dict[str, bytes]:
 
 def run_statement(found: Outcome) -> dict[str, Any]:
     """What differs between two runs of one design: when, where, and how long."""
-    evaluation, outcome = found.evaluation, found.leak_test.outcome
+    evaluation = found.evaluation
+    here = machine().to_dict()
     return {
         "date": datetime.now(UTC).isoformat(timespec="seconds"),
         "from_cache": None if evaluation is None else evaluation.from_cache or None,
-        "seconds": {
-            "evaluation": None if evaluation is None else evaluation.seconds.to_dict(),
-            "leak_test": None if outcome is None else outcome.seconds,
-        },
-        "machine": machine().to_dict(),
+        "seconds": None if evaluation is None else evaluation.seconds.to_dict(),
+        "leak_test": found.leak_test.measured(),
+        "machine": {key: value for key, value in here.items() if key != "versions"},
     }

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from bellows_design.approval import Verdict
     from bellows_design.design.design import Design
     from bellows_design.export.part import Part
-    from bellows_design.leak_test import LeakTester, Unavailable
+    from bellows_design.leak_test.record import LeakTester, Unavailable
     from bellows_design.store.store import Store
 
 
