@@ -98,7 +98,7 @@ class LeakTest:
         }
 
     def reproducible(self) -> dict[str, Any]:
-        """What another run says again, plain values for JSON: no figures, as seams may be random."""
+        """What another run says again, as plain values: no figures, as seams may be random."""
         if self.outcome is None:
             return self.summary()
         return self.summary() | {

@@ -40,7 +40,6 @@ def tested(slicer: Slicer, design: Design, mesh: ClosedMesh) -> LeakOutcome:
     Raises ``PrintersError`` if it cannot be sliced or tested.
     """
     from printers.leak_test.run import leak_test
-
     from printers.slicing.making import slice_mesh
 
     started, profile = time.perf_counter(), design.profile()

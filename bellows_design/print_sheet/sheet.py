@@ -88,10 +88,10 @@ def _test(figures: Figures) -> Iterator[Block]:
             (
                 f"{'Pump up' if pressure > 0 else 'Evacuate'} slowly to "
                 f"{_pressure(figures.angles[0].pressure)}, then to {_pressure(pressure)}.",
-                "Compare the angle with the table below. Stop at a bulge of one bubble alone.",
+                "Compare the angle with the table below; stop if one bubble alone bulges.",
             ),
             (
-                f"Hold: wait 60 s at {_pressure(pressure)}, close the valve next to the port, read "
+                f"Hold: wait a minute at {_pressure(pressure)}, close the valve next to the port, read "
                 f"the gauge, and again after {HOLD_SECONDS} s.",
                 _allowed(figures),
             ),
@@ -110,11 +110,10 @@ def _test(figures: Figures) -> Iterator[Block]:
         tuple(map(_angle, figures.angles)),
     )
     yield Paragraph(
-        "The angle is the turn of the tip against the root, towards the floor that lay on the bed "
-        "where it is positive. The ± is the estimated error of mesh and model alone. Print and "
-        "filament add to it, a stiffness that is off by a tenth about as much of the angle as "
-        "bellows study sensitivity says: an angle far smaller is an over-extruded or stiffer wall, "
-        "a sudden larger one a bubble about to fail."
+        "The angle is the turn of the tip against the root. The ± is the estimated error of mesh and "
+        "model, not of print and filament: what these add is said by bellows study sensitivity. An "
+        "angle that is far too small points to walls too thick or stiff, one that is too large to "
+        "walls too thin."
     )
 
 
@@ -158,13 +157,12 @@ def _limits(figures: Figures) -> Iterator[Block]:
     result, why = figures.leak_test
     tested = f"not run: {why}" if result == "not run" else result
     yield Heading("Limits")
+    yield Paragraph(f"Leak test on the slicer's G-code: {tested}.")
+    yield from (Paragraph(f"Warning: {warning}") for warning in figures.warnings)
     yield Paragraph(
-        f"Leak test on the slicer's G-code: {tested}. {' '.join(figures.warnings)}".strip()
-    )
-    yield Paragraph(
-        f"Pressure at most {_pressure(figures.design.load.pressure)}, with a relief valve; eye "
-        "protection; air only. The verdict is about a model: it knows strength, not fatigue. Test "
-        "again after every hundred cycles, and discard a part whose angle drifts."
+        f"At most {_pressure(figures.design.load.pressure)}, kept by a relief valve; wear eye "
+        "protection. The verdict is about a model: it knows the material's strength, not its fatigue, "
+        "and the printer's rules, not the state of the filament. Test again from time to time."
     )
 
 
