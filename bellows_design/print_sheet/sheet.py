@@ -91,8 +91,8 @@ def _test(figures: Figures) -> Iterator[Block]:
                 "Compare the angle with the table below; stop if one bubble alone bulges.",
             ),
             (
-                f"Hold: wait a minute at {_pressure(pressure)}, close the valve next to the port, read "
-                f"the gauge, and again after {HOLD_SECONDS} s.",
+                f"Hold: wait a minute at {_pressure(pressure)}, close the valve next to the port, "
+                f"read the gauge, and again after {HOLD_SECONDS} s.",
                 _allowed(figures),
             ),
             (
@@ -110,8 +110,8 @@ def _test(figures: Figures) -> Iterator[Block]:
         tuple(map(_angle, figures.angles)),
     )
     yield Paragraph(
-        "The angle is the turn of the tip against the root. The ± is the estimated error of mesh and "
-        "model, not of print and filament: what these add is said by bellows study sensitivity. An "
+        "The angle is the turn of the tip against the root. The ± is the estimated error of mesh "
+        "and model, not of print and filament: what these add, bellows study sensitivity says. An "
         "angle that is far too small points to walls too thick or stiff, one that is too large to "
         "walls too thin."
     )
@@ -161,8 +161,8 @@ def _limits(figures: Figures) -> Iterator[Block]:
     yield from (Paragraph(f"Warning: {warning}") for warning in figures.warnings)
     yield Paragraph(
         f"At most {_pressure(figures.design.load.pressure)}, kept by a relief valve; wear eye "
-        "protection. The verdict is about a model: it knows the material's strength, not its fatigue, "
-        "and the printer's rules, not the state of the filament. Test again from time to time."
+        "protection. The verdict is about a model: it knows the material's strength, not its "
+        "fatigue, and the printer's rules, not the state of the filament. Test again from time to time."
     )
 
 
