@@ -9,10 +9,10 @@ from bellows_design.print_sheet.blocks import Block, Heading, Paragraph, Steps, 
 
 STYLE = """
 @page { margin: 11mm 13mm; }
-body { font: 8.4pt/1.27 "Liberation Sans", Arial, sans-serif; color: #111; margin: 0 auto;
+body { font: 9.2pt/1.28 "Liberation Sans", Arial, sans-serif; color: #111; margin: 0 auto;
   max-width: 190mm; }
-h1 { font-size: 14pt; margin: 0 0 1.2mm; }
-h2 { font-size: 9.8pt; margin: 2.2mm 0 0.7mm; border-bottom: 0.3mm solid #999; }
+h1 { font-size: 15pt; margin: 0 0 1.2mm; }
+h2 { font-size: 10.6pt; margin: 2.6mm 0 0.7mm; border-bottom: 0.3mm solid #999; }
 p { margin: 0.7mm 0; }
 table { border-collapse: collapse; width: 100%; margin: 0.7mm 0; }
 th, td { border: 0.2mm solid #bbb; padding: 0.3mm 1.4mm; text-align: left; vertical-align: top; }

@@ -79,8 +79,7 @@ def _test(figures: Figures) -> Iterator[Block]:
     yield Heading("Leak test")
     yield Paragraph(
         f"Proof pressure: {_pressure(pressure)}, the design pressure. Nothing was computed beyond "
-        f"it, and {_stress(figures)}; do not go higher. The cavity holds {_volumes(figures)} of "
-        "air."
+        f"it, and {_stress(figures)}; do not go higher. The cavity holds {_volumes(figures)}."
     )
     yield Steps(
         (
@@ -106,7 +105,7 @@ def _test(figures: Figures) -> Iterator[Block]:
     )
     yield Heading("First test: does it bend as computed?")
     yield Table(
-        ("pressure", "bending angle", "of the computation"),
+        ("pressure", "bending angle", "error of the computation"),
         tuple(map(_angle, figures.angles)),
     )
     yield Paragraph(
@@ -135,10 +134,10 @@ def _allowed(figures: Figures) -> str:
 
 
 def _volumes(figures: Figures) -> str:
-    loaded = f"{figures.volume_under_pressure / 1000:.1f} cm³ at that pressure"
+    loaded = f"{figures.volume_under_pressure / 1000:.1f} cm³ of air at that pressure"
     if figures.volume_at_rest is None:
         return loaded
-    return f"{figures.volume_at_rest / 1000:.1f} cm³ at rest and {loaded}"
+    return f"{loaded}, {figures.volume_at_rest / 1000:.1f} cm³ at rest"
 
 
 def _stress(figures: Figures) -> str:
@@ -162,7 +161,8 @@ def _limits(figures: Figures) -> Iterator[Block]:
     yield Paragraph(
         f"At most {_pressure(figures.design.load.pressure)}, kept by a relief valve; wear eye "
         "protection. The verdict is about a model: it knows the material's strength, not its "
-        "fatigue, and the printer's rules, not the state of the filament. Test again from time to time."
+        "fatigue, and the printer's rules, not the state of the filament: test again from time to "
+        "time."
     )
 
 
