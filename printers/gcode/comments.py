@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from printers.arrays import Floats, Ints
+from printers.errors import PrintersError
 from printers.gcode.beads import (
     BRIDGE,
     EXTERNAL_PERIMETER,
@@ -40,6 +41,9 @@ FEATURES = {
 """What PrusaSlicer, SuperSlicer, OrcaSlicer, Bambu Studio and Cura call each kind."""
 
 KINDS = {name: kind for kind, names in FEATURES.items() for name in names.split(", ")}
+
+MOST_COMMENTS = 1_000_000
+"""Lines; they take some seconds. The shipped finger has 38 000."""
 
 MOST_UNKNOWN = 20
 """Names of features that are kept to be told."""
@@ -81,10 +85,18 @@ class Comments:
     layer: Statements = field(default_factory=Statements)
     facts: Facts = field(default_factory=Facts)
     unknown_features: set[str] = field(default_factory=set)
+    count: int = 0
 
     def collect(self, piece: bytes, lines: Lines) -> None:
-        """Take in the comments of the piece that the lines were read from."""
+        """Take in the comments of the piece that the lines were read from.
+
+        Raises:
+            PrintersError: There are too many.
+        """
         chosen = lines.command == COMMENT
+        self.count += int(chosen.sum())
+        if self.count > MOST_COMMENTS:
+            raise PrintersError(f"it has more than {MOST_COMMENTS} lines of comments")
         numbers = lines.number[chosen].tolist()
         for number, (start, end) in zip(numbers, lines.comment[chosen].tolist(), strict=True):
             comment = piece[start:end]

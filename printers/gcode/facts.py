@@ -9,20 +9,21 @@ MOST_SETTINGS = 5_000
 """PrusaSlicer writes 300, OrcaSlicer 500."""
 
 _SETTING = re.compile(r"([a-z][a-z0-9_]*)(?: =|:) ?(.*)")
+_NAME, _VERSION = r"([\w-]{1,40})(?:\(\w\))?", r"(?:Version )?([\w.+-]{1,40})"
 _SLICERS = (
-    re.compile(r".*[Gg]enerated (?:by|with) ([^\s(]+)\S* (?:Version )?([\w.+-]+).*"),
-    re.compile(r".*[Ss]liced (?:by|with) (\S+) ([\w.+-]+).*"),
-    re.compile(r"(BambuStudio|OrcaSlicer) ([\w.+-]+)"),
+    re.compile(rf"[Gg]enerated (?:by|with) {_NAME} {_VERSION}"),
+    re.compile(rf"[Ss]liced (?:by|with) {_NAME} {_VERSION}"),
+    re.compile(r"^(BambuStudio|OrcaSlicer) ([\w.+-]{1,40})$"),
 )
 _TIMES = (
-    re.compile(r"estimated printing time \(normal mode\) = (.+)"),
-    re.compile(r".*total estimated time: (.+)"),
-    re.compile(r"TIME:(\d+)(?:\.\d*)?"),
+    re.compile(r"^estimated printing time \(normal mode\) = (.+)"),
+    re.compile(r"total estimated time: (.+)"),
+    re.compile(r"^TIME:(\d+)"),
 )
 _LENGTHS = (
-    (re.compile(r"filament used \[mm\] = (.+)"), 1.0),
-    (re.compile(r"total filament length \[mm\] : (.+)"), 1.0),
-    (re.compile(r"Filament used: (.+)"), 1000.0),  # Cura, in metres
+    (re.compile(r"^filament used \[mm\] = (.+)"), 1.0),
+    (re.compile(r"^total filament length \[mm\] : (.+)"), 1.0),
+    (re.compile(r"^Filament used: (.+)"), 1000.0),  # Cura, in metres
 )
 _SECONDS = {"d": 86400.0, "h": 3600.0, "m": 60.0, "s": 1.0}
 
@@ -48,14 +49,14 @@ class Facts:
 
     def _take_sentence(self, text: str) -> None:
         if self.slicer is None:
-            found = next((found for form in _SLICERS if (found := form.fullmatch(text))), None)
+            found = next((found for form in _SLICERS if (found := form.search(text))), None)
             if found:
                 self.slicer, self.version = found[1], found[2]
         for form in _TIMES:
-            if self.time is None and (found := form.fullmatch(text)):
+            if self.time is None and (found := form.search(text)):
                 self.time = _duration(found[1])
         for form, unit in _LENGTHS:
-            if self.filament_length is None and (found := form.fullmatch(text)):
+            if self.filament_length is None and (found := form.search(text)):
                 self.filament_length = _sum(found[1], unit)
 
     def number(self, setting: str) -> float | None:

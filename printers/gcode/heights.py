@@ -11,26 +11,30 @@ DIGITS = 4
 """Of a height in mm: slicers write three, and sums of relative moves are off in the last bit."""
 
 
-def layers(lower: Floats, upper: Floats, lines: Ints) -> tuple[Floats, Ints]:
+def layers(
+    lower: Floats, upper: Floats, length: Floats, of_part: Flags, lines: Ints
+) -> tuple[Floats, Ints]:
     """(n,) the height at which each bead's layer is printed, and (n,) the layer's number.
 
     `lower` and `upper` are the nozzle's heights at the lower and upper end of each bead, mm. Level
     beads make the layers. A bead that rises on its way up to its layer, as in a seam that
-    OrcaSlicer ramps, is put at the height of the layer.
+    OrcaSlicer ramps, is put at the height of the layer; so is what is not of the part.
 
     Raises:
-        PrintersError: Beads rise through layers, as in a spiral vase.
+        PrintersError: Beads of the part rise above all layers or through one, or most of a layer
+            rises, as in a spiral vase.
     """
     lower, upper = np.round(lower, DIGITS), np.round(upper, DIGITS)
-    level = lower == upper
+    level = (lower == upper) | ~of_part
     tops = np.unique(upper[level])
     layer = np.searchsorted(tops, upper)
     below = np.concatenate(([-np.inf], tops))[layer]
-    astray = ~level & ((layer == len(tops)) | (lower < below))
+    rising = np.bincount(layer, length * ~level) > np.bincount(layer, length * of_part) / 2
+    astray = ~level & ((layer == len(tops)) | (lower < below) | rising[layer])
     if astray.any():
         raise PrintersError(
-            f"the nozzle rises through layers while it prints (line {lines[astray][0]} of the "
-            f"G-code); a spiral vase or a print that is not in level layers cannot be judged"
+            f"the nozzle rises while it prints (line {lines[astray][0]} of the G-code); a spiral "
+            f"vase or a print that is not in level layers cannot be judged"
         )
     return tops[layer], layer
 

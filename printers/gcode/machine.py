@@ -14,6 +14,9 @@ from printers.gcode.words import Lines
 LARGEST = 10_000.0
 """mm: no printer is larger, and no coordinate."""
 
+SHORTEST = 1e-6
+"""mm: plastic on less way is a blob, and no bead."""
+
 LARGEST_FEED = 1e8
 """mm of filament in one move, or mm³: 100 km."""
 
@@ -224,7 +227,7 @@ def _move(state: Floats, kind: int, word: Floats, move: Floats) -> tuple[bool, i
         centre_x, centre_y, fault = _centre(state, word, x, y, turn)
         if fault:
             return False, fault
-    moved = state[_X] != x or state[_Y] != y or turn != 0.0
+    moved = turn != 0.0 or np.hypot(state[_X] - x, state[_Y] - y) > SHORTEST
     if feed == 0 or not moved:
         if moved or state[_Z] != z:
             state[_BROKEN] = 1.0

@@ -10,43 +10,26 @@ from types import MappingProxyType
 
 import numpy as np
 
-from printers.arrays import Flags, Floats
+from printers.arrays import Floats
 from printers.errors import PrintersError, quoted, shortened
 from printers.gcode.arcs import straightened
-from printers.gcode.beads import OTHER, SKIRT, SUPPORT, Beads
+from printers.gcode.beads import Beads
 from printers.gcode.comments import Comments
-from printers.gcode.heights import heights, layers
-from printers.gcode.machine import (
-    FED,
-    LINE,
-    PATH,
-    TOOL,
-    VOLUMETRIC,
-    X0,
-    X1,
-    Y0,
-    Y1,
-    Z0,
-    Z1,
-    Machine,
-)
-from printers.gcode.words import LONGEST_LINE, read_lines
+from printers.gcode.facts import Facts
+from printers.gcode.laying import before_first_layer, laid_beads, notes_on
+from printers.gcode.machine import COLUMNS, FED, VOLUMETRIC, Machine
+from printers.gcode.pieces import pieces
+from printers.gcode.words import read_lines
 
-LARGEST_FILE = 300_000_000
-"""Bytes; a print of a day has a tenth of it."""
+MOST_BEADS = 2_000_000
+"""To read them takes 0.7 GB; the shipped finger has 149 000."""
 
-MOST_BEADS = 10_000_000
-"""They take 1 GB."""
-
-PIECE = 1_000_000
-"""Bytes read at a time."""
-
-FILAMENT_DIAMETERS = (0.5, 5.0)
-"""mm: the least and the largest that is believed."""
+FILAMENT_DIAMETERS = (1.0, 4.0)
+"""mm: the least and the largest that is believed, as in a profile."""
 
 DISAGREEMENT = 0.05
-"""Share by which the filament that is fed may differ from what the slicer states, which leaves out
-purge and code of the printer's own; more means that something was misread."""
+"""Share by which the filament that is laid down may differ from what the slicer states, which has
+blobs and purge between; more means that something was misread."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,56 +78,28 @@ def read_gcode(path: str | os.PathLike[str], filament_diameter: float | None = N
             no filament diameter, or lays down no plastic.
     """
     name = quoted(os.fspath(path))
-    machine, comments, moves = Machine(), Comments(), [np.empty((0, 14))]
+    machine, comments = Machine(), Comments()
     try:
-        beads_left = MOST_BEADS
-        first = 1
-        for piece in _pieces(Path(path)):
-            lines = read_lines(piece, first)
-            comments.collect(piece, lines)
-            moves.append(straightened(machine.follow(lines), beads_left))
-            first, beads_left = first + lines.passed, beads_left - len(moves[-1])
-            if beads_left < 0:
-                raise PrintersError(f"it has more than {MOST_BEADS} beads")
-        return _understood(np.concatenate(moves), machine, comments, filament_diameter)
-    except OSError as error:
-        reason = shortened(error.strerror or str(error))
-        raise PrintersError(f"G-code {name} cannot be read: {reason}") from None
+        moves = _moves(Path(path), machine, comments)
+        return _understood(moves, machine, comments, filament_diameter)
     except PrintersError as error:
         raise PrintersError(f"G-code {name}: {error}") from None
+    except (OSError, ValueError) as error:  # ValueError: no name that a file may have
+        reason = shortened(getattr(error, "strerror", None) or str(error))
+        raise PrintersError(f"G-code {name} cannot be read: {reason}") from None
 
 
-def _pieces(path: Path) -> Iterator[bytes]:
-    """Whole lines of the file, about a megabyte at a time."""
-    if path.exists() and not path.is_file():
-        raise PrintersError("it is no file")  # reading from a pipe would wait for a writer
-    with path.open("rb") as file:
-        rest, total = b"", 0
-        while block := file.read(PIECE):
-            total += len(block)
-            _refuse_other_files(block, first=total == len(block))
-            if total > LARGEST_FILE:
-                raise PrintersError(f"it is larger than {LARGEST_FILE // 1_000_000} MB")
-            whole, newline, tail = (rest + block).rpartition(b"\n")
-            rest = tail
-            if len(rest) > LONGEST_LINE:
-                raise PrintersError(f"it has a line longer than {LONGEST_LINE // 1000} kB")
-            if newline:
-                yield whole + newline
-        if rest:
-            yield rest
-
-
-def _refuse_other_files(block: bytes, first: bool) -> None:
-    if first and block.startswith(b"GCDE"):
-        raise PrintersError(
-            "it is binary G-code; convert it to text in the slicer, or slice again with binary "
-            "G-code switched off"
-        )
-    if first and block.startswith(b"PK\x03\x04"):
-        raise PrintersError("it is a zip archive; unpack it, the G-code is inside (Metadata/)")
-    if b"\0" in block:
-        raise PrintersError("it is no text, so no G-code")
+def _moves(path: Path, machine: Machine, comments: Comments) -> Floats:
+    """(n, 14) all moves that lay down plastic; machine and comments take in the file."""
+    parts, line, count = [np.empty((0, COLUMNS))], 1, 0
+    for piece in pieces(path):
+        lines = read_lines(piece, line)
+        comments.collect(piece, lines)
+        parts.append(straightened(machine.follow(lines), MOST_BEADS))
+        line, count = line + lines.passed, count + len(parts[-1])
+        if count > MOST_BEADS:
+            raise PrintersError(f"it has more than {MOST_BEADS} beads")
+    return np.concatenate(parts)
 
 
 def _understood(
@@ -153,14 +108,13 @@ def _understood(
     if not len(moves):
         raise PrintersError("it lays down no plastic (no move with X or Y and a rising E)")
     facts = comments.facts
-    volumetric = _volumetric(moves, comments)
-    diameter, source = _filament_diameter(comments, argument, needed=not volumetric.all())
+    diameter, source = _filament_diameter(facts, argument)
     area = np.pi * diameter**2 / 4
-    beads, notes = _beads(moves, np.where(volumetric, 1.0, area) * moves[:, FED], comments)
-    length = machine.length + machine.volume / area
-    if facts.number("use_volumetric_e"):
-        length = (machine.length + machine.volume) / area
-    stated = facts.filament_length
+    # E is a length, or a volume after M200, or where the settings say so.
+    section = 1.0 if facts.number("use_volumetric_e") else area
+    volume = np.where(moves[:, VOLUMETRIC] == 1, 1.0, section) * moves[:, FED]
+    beads = laid_beads(moves, volume, comments)
+    printed = volume[~before_first_layer(moves, comments)].sum() / area
     return GCode(
         beads=beads,
         slicer=facts.slicer,
@@ -168,33 +122,21 @@ def _understood(
         estimated_time=facts.time,
         filament_diameter=diameter,
         filament_diameter_source=source,
-        filament_length=length,
-        stated_filament_length=stated,
+        filament_length=(machine.length * section + machine.volume) / area,
+        stated_filament_length=facts.filament_length,
         settings=MappingProxyType(dict(facts.settings)),
-        notes=(*notes, *_disagreements(length, stated, comments, argument)),
+        notes=(*notes_on(moves, beads, comments), *_disagreements(printed, facts, argument)),
     )
 
 
-def _volumetric(moves: Floats, comments: Comments) -> Flags:
-    """(n,) whether E is a volume: after M200, or as the settings say."""
-    if comments.facts.number("use_volumetric_e"):
-        return np.ones(len(moves), dtype=bool)
-    return np.asarray(moves[:, VOLUMETRIC] == 1)
-
-
-def _filament_diameter(
-    comments: Comments, argument: float | None, needed: bool
-) -> tuple[float, str]:
-    stated = comments.facts.number("filament_diameter")
-    if argument is None and stated is None:
-        if not needed:
-            return 1.75, "none needed"  # E is a volume; it only states the length
+def _filament_diameter(facts: Facts, argument: float | None) -> tuple[float, str]:
+    stated = facts.number("filament_diameter")
+    diameter, source = (stated, "G-code") if argument is None else (argument, "argument")
+    if diameter is None:
         raise PrintersError(
             "it states no filament_diameter; give it (1.75 mm, or 2.85 mm in some printers)"
         )
-    diameter, source = (stated, "G-code") if argument is None else (argument, "argument")
     least, largest = FILAMENT_DIAMETERS
-    assert diameter is not None
     if not least <= diameter <= largest:
         raise PrintersError(
             f"filament_diameter is {diameter:g} mm; it must lie from {least:g} to {largest:g} mm"
@@ -202,54 +144,13 @@ def _filament_diameter(
     return diameter, source
 
 
-def _beads(moves: Floats, volume: Floats, comments: Comments) -> tuple[Beads, tuple[str, ...]]:
-    """Where the moves have a length in the plane of the layer, and sentences on them."""
-    lines = moves[:, LINE].astype(np.int64)
-    kind = comments.kind.at(lines, OTHER).astype(np.int64)
-    if comments.layer.lines:
-        kind[lines < comments.layer.lines[0]] = SKIRT
-    of_part = (kind != SKIRT) & (kind != SUPPORT)
-    lower, upper = np.minimum(moves[:, Z0], moves[:, Z1]), np.maximum(moves[:, Z0], moves[:, Z1])
-    top, layer = layers(lower, upper, lines)
-    height = heights(comments.height.at(lines, np.nan), top, layer, of_part)
-    length = np.hypot(moves[:, X1] - moves[:, X0], moves[:, Y1] - moves[:, Y0])
-    if (height <= 0).any():
-        first = lines[height <= 0][0]
-        raise PrintersError(f"line {first} lays down plastic at or below the bed, z = 0")
-    beads = Beads(
-        start=np.ascontiguousarray(moves[:, (X0, Y0)]),
-        end=np.ascontiguousarray(moves[:, (X1, Y1)]),
-        top=top,
-        height=height,
-        width=volume / (length * height),
-        nominal_width=comments.width.at(lines, np.nan),
-        kind=kind,
-        path=moves[:, PATH].astype(np.int64),
-        layer=layer.astype(np.int64),
-    )
-    return beads, tuple(_notes(beads, moves, comments, lower != upper))
-
-
-def _notes(beads: Beads, moves: Floats, comments: Comments, sloped: Flags) -> Iterator[str]:
-    if not comments.kind.lines:
-        yield "no comment states the kinds of beads: skirts and purge count as part of the part"
-    if comments.unknown_features:
-        names = ", ".join(quoted(name) for name in sorted(comments.unknown_features))
-        yield f"features of unknown names count as part of the part: {names}"
-    if sloped.any():
-        yield f"{sloped.sum()} beads rise on their way and are put at the height of their layer"
-    if len(np.unique(moves[beads.of_part, TOOL])) > 1:
-        yield "several extruders print the part; all are taken to have the first one's filament"
-
-
-def _disagreements(
-    length: float, stated: float | None, comments: Comments, argument: float | None
-) -> Iterator[str]:
-    if stated and abs(length / stated - 1) > DISAGREEMENT:
+def _disagreements(printed: float, facts: Facts, argument: float | None) -> Iterator[str]:
+    """`printed` is the filament in mm without what comes before the first layer."""
+    stated, diameter = facts.filament_length, facts.number("filament_diameter")
+    if stated and abs(printed / stated - 1) > DISAGREEMENT:
         yield (
-            f"the G-code feeds {length:.0f} mm of filament, and its slicer states {stated:.0f} mm: "
-            f"something may have been misread"
+            f"the G-code lays down {printed:.0f} mm of filament, and its slicer states "
+            f"{stated:.0f} mm: something may have been misread"
         )
-    diameter = comments.facts.number("filament_diameter")
     if argument is not None and diameter is not None and abs(argument - diameter) > 1e-6:
         yield f"filament_diameter is {argument:g} mm as given; the G-code states {diameter:g} mm"

@@ -42,10 +42,11 @@ _CAPITAL = 0b1101_1111  # what of a letter's byte is the same in capitals
 _G, _M, _N, _T = 71, 77, 78, 84
 _TOOL_COLUMN = LETTERS.index("S")
 
-_TOO_LONG, _NO_NUMBER, _NO_LETTER = 1, 2, 3
+_TOO_LONG, _NO_NUMBER, _NO_LETTER, _TWICE = 1, 2, 3, 4
 _FAULTS = {
     _TOO_LONG: f"is longer than {LONGEST_LINE // 1000} kB",
     _NO_NUMBER: "has a letter without a number",
+    _TWICE: "has a letter twice (G-code knows no exponents, as in 1e-5)",
     _NO_LETTER: "has a number without a letter, or a sign that G-code does not have",
 }
 
@@ -159,6 +160,8 @@ def _words_from(data: Bytes, at: int, end: int, flags: bool, row: Floats, column
         if (digits == 0 and not flags) or np.isnan(value):  # NaN: hundreds of digits
             return _NO_NUMBER
         if column >= 0:
+            if not np.isnan(row[column]):
+                return _TWICE
             row[column] = value
         at = _after_blanks(data, at, end)
     return 0
