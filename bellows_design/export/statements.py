@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from datetime import UTC, datetime
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from bellows_design.export.companions import leak_test_file, settings_files
 from bellows_design.export.contents import contents
 from bellows_design.geometry.tessellation import TOLERANCE
 from bellows_design.machine import machine
-from bellows_design.outcome import Outcome
 from bellows_design.print_sheet import sheet_files
 from bellows_design.printability import check_dict
+
+if TYPE_CHECKING:
+    from bellows_design.pipeline import Outcome
 
 
 def files_of(found: Outcome) -> dict[str, bytes]:

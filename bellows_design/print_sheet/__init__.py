@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from bellows_design.outcome import Outcome
+    from bellows_design.pipeline import Outcome
 
 
 def sheet_files(found: Outcome) -> dict[str, bytes]:

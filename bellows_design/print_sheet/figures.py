@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from bellows_design.analysis.evaluation import Evaluation
     from bellows_design.analysis.whole_actuator import Reading
     from bellows_design.design.design import Design
-    from bellows_design.outcome import Outcome
+    from bellows_design.pipeline import Outcome
     from printers import PrinterProfile
 
 HOLD_SECONDS = 60

@@ -14,7 +14,7 @@ from bellows_design.reports.evaluation import evaluation_table
 if TYPE_CHECKING:
     from bellows_design.approval import Verdict
     from bellows_design.leak_test.record import LeakTest
-    from bellows_design.outcome import Outcome
+    from bellows_design.pipeline import Outcome
 
 
 def outcome_table(outcome: Outcome) -> Sequence[RenderableType]:

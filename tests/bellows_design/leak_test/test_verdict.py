@@ -14,8 +14,7 @@ from bellows_design import load_design, with_overrides
 from bellows_design.design.design import Design
 from bellows_design.geometry.tessellation import ClosedMesh
 from bellows_design.leak_test.record import LeakOutcome, LeakTester, Unavailable
-from bellows_design.outcome import Outcome
-from bellows_design.pipeline import run
+from bellows_design.pipeline import Outcome, run
 from printers import PrintersError, RuleResult
 
 NO_SLICER = Unavailable("there is no slicer")

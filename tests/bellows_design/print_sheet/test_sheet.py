@@ -16,8 +16,7 @@ from bellows_design.analysis.evaluation import MeshReading, MeshSize
 from bellows_design.analysis.whole_actuator import Reading
 from bellows_design.design.design import Design
 from bellows_design.leak_test.record import Unavailable
-from bellows_design.outcome import Outcome
-from bellows_design.pipeline import examine
+from bellows_design.pipeline import Outcome, examine
 from bellows_design.print_sheet import sheet_files
 from bellows_design.print_sheet.blocks import Heading, Paragraph, Steps, Table
 from bellows_design.print_sheet.figures import Figures, figures_of
