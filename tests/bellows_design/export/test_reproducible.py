@@ -17,6 +17,7 @@ import pytest
 from real_command import ROOT, bellows
 
 from bellows_design.export.formats import WRITERS, Part
+from bellows_design.export.statements import rounded
 
 OF_A_PART = """
 import hashlib, json, sys
@@ -57,6 +58,23 @@ def test_identifiers_in_a_3mf_are_those_of_the_design(cube_part: Part) -> None:
     own, other = identifiers(cube_part), identifiers(replace(cube_part, digest="cd" * 32))
     assert len(own) == 3 and not own & other
     assert {uuid.UUID(each).version for each in own} == {5}
+
+
+@pytest.mark.parametrize(
+    ("value", "rounded_value"),
+    [
+        (102.0924016154624, 102.0924),
+        (-0.2213009820644094, -0.22130098),
+        (3, 3),
+        (True, True),
+        (None, None),
+        ({"a": [1 / 3, "1.23456789012"]}, {"a": [0.33333333, "1.23456789012"]}),
+    ],
+)
+def test_noise_of_the_linear_solver_stays_out_of_the_manifest(
+    value: object, rounded_value: object
+) -> None:
+    assert rounded(value) == rounded_value
 
 
 def ended(code: str, threads: int, folder: Path) -> str:
