@@ -1,10 +1,18 @@
 """The thinnest seal: of all paths from the cavity to the outside the one through least plastic.
 
-A wall that is closed but too thin has no leak, and still nothing that keeps it closed. Its depth is
-the length of the shortest path where only what lies within beads (F < 1) counts, in lines. It is
-found on cells of a quarter of a line, of which each counts by the share of its finer cells that lie
-within beads. Steps go to all 26 neighbours; the length of a slanting path, up to 13 % too long
-that way, is corrected to that of the straight way between the ends of every wall it crosses.
+A wall that is closed but too thin has no leak, and still little that keeps it closed. Its depth is
+the length of the shortest path of which only what lies within beads counts, in lines. Three things
+make that number one to judge by:
+
+- Voids. Where infill ends at a perimeter, narrow voids remain in any sound part: a path along them
+  crosses little plastic, though each is closed by the next layer. So depth is measured twice, with
+  every void open, and over voids narrower than 0.3 lines, as if melt had closed them. The first
+  tells parts whose voids join up, the second walls that are too thin.
+- Direction. A profile asks for more plastic in a standing wall than in a floor. Heights count so
+  many times that `minimum_solid_layers` layers are worth `minimum_lines` lines.
+- Cells. The path is found on cells of a quarter of a line, each with the share of plastic in it.
+  Steps go to all 26 neighbours; the length of a slanting path, up to 13 % too long that way, is
+  corrected to that of the straight way between both ends of every wall it crosses.
 """
 
 from __future__ import annotations
@@ -14,9 +22,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from printers.arrays import Floats
+from printers.arrays import Flags, Floats, Ints
 from printers.compilation import njit
-from printers.leak_test.field import Field, Levels
+from printers.leak_test.field import Field, Levels, ratio_of
 from printers.leak_test.flood import CAVITY, CLOSED, OUTSIDE
 from printers.leak_test.painting import AIR
 
@@ -29,55 +37,98 @@ FULL = 16
 
 FARTHEST = 65_000
 
+CLOSED_VOID = 1.3
+"""F up to which a void counts as closed by melt."""
+
 
 @dataclass(frozen=True, eq=False)
 class Crossing:
     """A path through the thinnest seal.
 
     Attributes:
-        millimetres: Of plastic that is crossed; infinite where nothing leads to the outside.
-        points: Of the path, mm.
+        length: Of plastic that is crossed, mm, heights counting `stretch` times; infinite where
+            nothing leads to the outside.
+        millimetres: The same with heights as they are.
+        points: Of the path, mm, from the outside to the cavity.
             *Shape:* `(n, 3)`
         middle: Point of the path with as much plastic before as behind it.
     """
 
+    length: float
     millimetres: float
     points: Floats
     middle: Floats
 
 
-def thinnest_seal(field: Field, marks: Levels) -> Crossing:
-    """The path of least plastic between the airs that are marked (flat)."""
-    grid = marks.reshape(field.levels.shape)
+def thinnest_seal(field: Field, marks: Levels, open_from: int, stretch: float) -> Crossing:
+    """The path of least plastic between the airs that are marked (flat).
+
+    Args:
+        field: Scaled distances.
+        marks: Of the air from the level `open_from` on.
+        open_from: Voids count as plastic unless they hold a cell of that level.
+        stretch: How many times heights count.
+    """
     factor = max(1, round(field.line_width / CELLS_A_LINE / field.voxel))
-    share, ends = _pooled(field.levels, grid, factor)
     side = factor * field.voxel
-    thickness = np.diff(field.heights) / side
+    sharpness = field.line_width / 2 / field.voxel
+    plastic = _plastic_of_levels(sharpness)
+    steps = round((float(ratio_of(open_from)) - 1) * sharpness)
+    grid = marks.reshape(field.levels.shape)
+    share, ends = _pooled(field.levels, grid, factor, plastic, open_from, steps)
+    thickness = np.diff(field.heights) * stretch / side
     cells = _least_plastic(share.ravel(), ends.ravel(), thickness, *share.shape[1:])
     if not len(cells):
-        return Crossing(math.inf, np.zeros((0, 3)), np.full(3, np.nan))
+        return Crossing(math.inf, math.inf, np.zeros((0, 3)), np.full(3, np.nan))
     points = _places(field, cells, share.shape, side)
-    return _straightened(points, _crossed(points, share.ravel()[cells] / FULL))
+    return _straightened(points, share.ravel()[cells] / FULL, stretch)
+
+
+def _plastic_of_levels(sharpness: float) -> Levels:
+    """(256,) share of plastic, up to `FULL`, in a cell whose centre has the level.
+
+    A bead's side crosses the cell where F is within half a cell of 1.
+    """
+    ratio = ratio_of(np.arange(256))
+    share = np.clip((1 - ratio) * sharpness + 0.5, 0.0, 1.0)
+    return np.round(FULL * share).astype(np.uint8)
 
 
 @njit(cache=True, nogil=True)
-def _pooled(levels, marks, factor):  # type: ignore[no-untyped-def]
-    """Share of plastic and mark of cells of `factor` x `factor` finer ones."""
+def _pooled(levels, marks, factor, plastic, open_from, steps):  # type: ignore[no-untyped-def]
+    """Share of plastic and mark of cells of `factor` x `factor` finer ones.
+
+    Air are the cells from the level `open_from` on, and those beyond the beads' sides that are
+    `steps` from one; other voids are closed.
+    """
     nz, ny, nx = levels.shape
     shape = nz, (ny + factor - 1) // factor, (nx + factor - 1) // factor
     share = np.zeros(shape, dtype=np.uint8)
     ends = np.zeros(shape, dtype=np.uint8)
+    air = np.zeros((ny, nx), dtype=np.int16)
     for k in range(nz):
+        for j in range(ny):
+            for i in range(nx):
+                air[j, i] = levels[k, j, i] >= open_from
+        for step in range(steps):
+            for j in range(1, ny - 1):
+                for i in range(1, nx - 1):
+                    if air[j, i] == 0 and levels[k, j, i] >= AIR:
+                        for near in (air[j, i - 1], air[j, i + 1], air[j - 1, i], air[j + 1, i]):
+                            if 0 < near <= step + 1:
+                                air[j, i] = step + 2
         for j in range(shape[1]):
             for i in range(shape[2]):
-                plastic, mark = 0, 0
+                total, count, mark = 0, 0, 0
                 for b in range(j * factor, min((j + 1) * factor, ny)):
                     for a in range(i * factor, min((i + 1) * factor, nx)):
-                        plastic += levels[k, b, a] < AIR
+                        closed = levels[k, b, a] >= AIR and air[b, a] == 0
+                        total += FULL if closed else plastic[levels[k, b, a]]
+                        count += 1
                         own = marks[k, b, a]
                         if own == CLOSED or (own in (CAVITY, OUTSIDE) and mark != CLOSED):
                             mark = own
-                share[k, j, i] = int(FULL * plastic / (factor * factor) + 0.5)
+                share[k, j, i] = int(total / count + 0.5)
                 ends[k, j, i] = mark
     return share, ends
 
@@ -90,7 +141,13 @@ def _least_plastic(share, ends, thickness, ny, nx):  # type: ignore[no-untyped-d
     of a cell.
     """
     layer = ny * nx
-    most = int(math.ceil(UNITS * FULL * (2 + 2 * thickness.max()))) + 2
+    offsets = np.zeros(27, dtype=np.int64)
+    flats = np.zeros(27)
+    for number in range(27):
+        dy, dx = number // 3 % 3 - 1, number % 3 - 1
+        offsets[number] = (number // 9 - 1) * layer + dy * nx + dx
+        flats[number] = dx * dx + dy * dy
+    most = math.ceil(UNITS * FULL * (2 + 2 * thickness.max())) + 2
     head = np.full(most, -1, dtype=np.int64)
     cells = np.empty(1 << 16, dtype=np.int32)
     after = np.empty(1 << 16, dtype=np.int32)
@@ -122,13 +179,12 @@ def _least_plastic(share, ends, thickness, ny, nx):  # type: ignore[no-untyped-d
                 break
         k = cell // layer
         for number in range(27):
-            dz, dy, dx = number // 9 - 1, number // 3 % 3 - 1, number % 3 - 1
-            beside = cell + dz * layer + dy * nx + dx
-            if beside < 0 or beside >= len(share) or ends[beside] == CLOSED:
+            beside = cell + offsets[number]
+            if beside < 0 or beside >= len(share) or distance[beside] <= now:
                 continue
-            if distance[beside] <= now:
+            if ends[beside] == CLOSED:
                 continue
-            flat = dx * dx + dy * dy
+            dz, flat = number // 9 - 1, flats[number]
             if dz == 0:
                 cost = 0.5 * math.sqrt(flat) * (share[cell] + share[beside])
             else:
@@ -157,13 +213,12 @@ def _least_plastic(share, ends, thickness, ny, nx):  # type: ignore[no-untyped-d
         path.clear()
         return np.array([0])[:0]
     while origin[cell] != 255:
-        number = origin[cell]
-        cell -= (number // 9 - 1) * layer + (number // 3 % 3 - 1) * nx + number % 3 - 1
+        cell -= offsets[origin[cell]]
         path.append(np.int64(cell))
     return np.array(path)
 
 
-def _places(field: Field, cells: Floats, shape: tuple[int, ...], side: float) -> Floats:
+def _places(field: Field, cells: Ints, shape: tuple[int, ...], side: float) -> Floats:
     """Centres (n, 3), mm, of pooled cells."""
     k, j, i = np.unravel_index(cells, shape)
     middle = (field.heights[:-1] + field.heights[1:]) / 2
@@ -171,21 +226,23 @@ def _places(field: Field, cells: Floats, shape: tuple[int, ...], side: float) ->
     return np.column_stack([x + i * side, y + j * side, middle[k]])
 
 
-def _crossed(points: Floats, share: Floats) -> Floats:
-    """(n - 1,) mm of plastic on each step of a path."""
-    length = np.linalg.norm(np.diff(points, axis=0), axis=1)
-    return np.asarray(length * (share[:-1] + share[1:]) / 2)
-
-
-def _straightened(points: Floats, crossed: Floats) -> Crossing:
+def _straightened(points: Floats, share: Floats, stretch: float) -> Crossing:
     """The path with what it crosses of every wall shortened to the straight way."""
-    length = np.linalg.norm(np.diff(points, axis=0), axis=1)
-    changes = np.flatnonzero(np.diff(np.concatenate([[0], crossed > 0, [0]]))).reshape(-1, 2)
-    crossed = crossed.copy()
-    for first, last in changes:
-        chord = float(np.linalg.norm(points[last] - points[first]))
-        crossed[first:last] *= chord / length[first:last].sum()
-    total = crossed.sum()
-    before = np.concatenate([[0.0], np.cumsum(crossed)])
-    middle = np.array([np.interp(total / 2, before, points[:, axis]) for axis in range(3)])
-    return Crossing(float(total), points, middle)
+    crossed = []
+    for scale in (stretch, 1.0):
+        steps = np.linalg.norm(np.diff(points, axis=0) * [1, 1, scale], axis=1)
+        plastic = steps * (share[:-1] + share[1:]) / 2
+        for first, last in _runs(plastic > 0):
+            chord = np.linalg.norm((points[last] - points[first]) * [1, 1, scale])
+            plastic[first:last] *= chord / steps[first:last].sum()
+        crossed.append(plastic)
+    before = np.concatenate([[0.0], np.cumsum(crossed[0])])
+    half = before[-1] / 2
+    middle = np.array([np.interp(half, before, points[:, axis]) for axis in range(3)])
+    return Crossing(float(before[-1]), float(crossed[1].sum()), points, middle)
+
+
+def _runs(flags: Flags) -> Ints:
+    """(m, 2): first and behind the last of every run of true flags."""
+    bounded = np.concatenate([[0], flags.astype(int), [0]])
+    return np.flatnonzero(np.diff(bounded)).reshape(-1, 2)

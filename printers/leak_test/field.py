@@ -73,6 +73,11 @@ def ratio_of(level: Any) -> Any:
     return np.where(np.less_equal(level, painting.COARSE_START), level / painting.FINE, far)
 
 
+def level_of(ratio: float) -> int:
+    """The level of an F up to `COARSE_FROM`."""
+    return round(ratio * painting.FINE)
+
+
 def grid_for(beads: Beads, voxel: float | None, line_width: float) -> tuple[float, list[str]]:
     """Side of the cells, mm, and a sentence where it had to be coarser than asked.
 

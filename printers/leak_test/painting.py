@@ -24,8 +24,11 @@ import numpy as np
 
 from printers.compilation import njit
 
-PAINTED = 1.6
+PAINTED = 1.4
 """F up to which cells are computed from beads; beyond, distances are summed from cell to cell."""
+
+SHALLOWEST = 0.5
+"""F below which no ridge is looked for: beads that overlap by half have nothing between them."""
 
 MITRE = math.sqrt(2.0)
 SHARPEST = -0.5  # cosine of the turn: 120°
@@ -131,7 +134,7 @@ def _find_ridges(table, x0, y0, voxel, nearest, gx, gy, slope, rise):  # type: i
             y = y0 + j * voxel
             left, right = _columns(bead, y, x0, voxel, reach, nx)
             for i in range(left, right + 1):
-                if rise[j, i] == 0.0 or nearest[j, i] > PAINTED:
+                if nearest[j, i] < SHALLOWEST or nearest[j, i] > PAINTED:
                     continue
                 f, ux, uy = _scaled(bead, x0 + i * voxel, y)
                 facing = ux * gx[j, i] + uy * gy[j, i]

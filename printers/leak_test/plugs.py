@@ -26,7 +26,9 @@ SURROUNDED = 0.5
 """Share of a ring around the mouth that must be beads for the opening to be one."""
 
 
-def fresh_marks(field: Field, openings: Sequence[Opening], blocked: Sequence[Floats] = ()) -> Levels:
+def fresh_marks(
+    field: Field, openings: Sequence[Opening], blocked: Sequence[Floats] = ()
+) -> Levels:
     """Marks (flat): what lies beyond all beads is outside, the plugs are closed.
 
     `blocked` are middles of balls, of the radius of `blocked_radius`, that are closed too.
@@ -116,7 +118,9 @@ def _around(
     middles = (field.heights[:-1] + field.heights[1:]) / 2
     window, x, y = _window(field, centre, reach)
     for layer in np.flatnonzero(np.abs(middles - centre[2]) <= reach):
-        offset = np.stack([x - centre[0], y - centre[1], np.full_like(x, middles[layer] - centre[2])])
+        offset = np.stack(
+            [x - centre[0], y - centre[1], np.full_like(x, middles[layer] - centre[2])]
+        )
         along = np.tensordot(axis, offset, 1)
         square = (offset**2).sum(axis=0) - along**2
         yield int(layer), window, along, np.sqrt(np.maximum(square, 0))

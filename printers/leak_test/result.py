@@ -32,7 +32,7 @@ class Leak:
         ratio: Smallest scaled distance to a bead on the path; above 1 all of it is air.
         width: Of the air at the narrowest place, mm, for beads of one line.
         place: The narrowest place.
-        at_least: Whether the path is wider than the test tells apart.
+        at_least: Whether the path may be wider.
     """
 
     ratio: float
@@ -46,15 +46,16 @@ class Depth:
     """The thinnest seal: the least plastic that a path from the cavity to the outside crosses.
 
     Attributes:
-        lines: Of the profile's width: length of the path within beads over the width.
-        millimetres: That length.
-        beads: Number of different paths of the nozzle that the straight way there crosses.
-        place: Middle of what is crossed; None where nothing is.
+        lines: Of the profile's width, over voids narrower than 0.3 lines as if they were closed.
+            Heights are stretched so that floors and walls can be held against one limit.
+        millimetres: Of plastic on that path, heights as they are.
+        lines_beside_voids: Likewise in lines, but every void is open; 0 where a leak is.
+        place: Middle of what is crossed; None where the cavity is open.
     """
 
     lines: float
     millimetres: float
-    beads: int
+    lines_beside_voids: float
     place: Place | None
 
 
@@ -79,11 +80,13 @@ class Material:
 
     Attributes:
         volume: Of the part's beads, mm³.
+        mass: g, by the density of the profile's filament.
         solid_volume: Of the solid, mm³; None if it is not known.
         flow: Multiplier of the nominal extrusion.
     """
 
     volume: float
+    mass: float
     solid_volume: float | None
     flow: float
 
@@ -104,7 +107,8 @@ class LayerView:
         bottom, top: Of the layer above the bed, mm.
         corner: Of the first cell of `air`, mm, in the frame of the G-code.
         voxel: Side of a cell, mm.
-        air: 0 within beads or voids between them, 1 air of the cavity, 2 air outside, 3 plug.
+        air: 0 within beads, 1 air of the cavity, 2 air outside, 3 plug, 4 voids between beads and
+            the narrow part of a leak.
             *Shape:* `(ny, nx)`
         path: Points of the path, mm, in the frame of the G-code.
             *Shape:* `(n, 3)`
@@ -135,7 +139,7 @@ class LeakTest:
         line_width: That `ratio` is turned into mm by.
         leaks: Widest first, at most five; none where sealed.
         depth: The thinnest seal.
-        seams: None where a leak is open without any loss.
+        seams: None where a leak is open without any loss, or it was not asked for.
         material: Laid down.
         voxel: Side of the grid's cells, mm.
         notes: What limits the answer, one sentence each.

@@ -19,7 +19,6 @@ from printers.leak_test.plugs import cavity_start, fresh_marks
 from printers.model import Opening
 
 
-
 @dataclass(frozen=True, eq=False)
 class WidestPath:
     """A bottleneck path.
@@ -49,14 +48,13 @@ def widest_path(
 ) -> WidestPath:
     """The widest path that passes no plug and none of the balls around `blocked`."""
     levels, shape = field.levels.ravel(), field.levels.shape[1:]
-    start = cavity_start(field, openings)
-    marks, touched = _air(field, openings, blocked, start, AIR)
+    marks, touched = air(field, openings, AIR, blocked)
     if not touched:
         return WidestPath(int(widest(levels, marks, *shape)), marks)
     marks = fresh_marks(field, openings, blocked)
-    marks[start] = CAVITY
+    marks[cavity_start(field, openings)] = CAVITY
     level = int(widest(levels, marks, *shape))
-    return WidestPath(level, _air(field, openings, blocked, start, level + 1)[0])
+    return WidestPath(level, air(field, openings, level + 1, blocked)[0])
 
 
 def crossing(field: Field, path: WidestPath) -> Ints:
@@ -72,12 +70,12 @@ def narrowest(field: Field, cells: Ints) -> int:
     return int(cells[narrow[len(narrow) // 2]])
 
 
-def _air(
-    field: Field, openings: Sequence[Opening], blocked: Sequence[Floats], start: Ints, least: int
+def air(
+    field: Field, openings: Sequence[Opening], least: int, blocked: Sequence[Floats] = ()
 ) -> tuple[Levels, bool]:
     """Marks of the air from the level `least` on, and whether cavity and outside are connected."""
     levels, shape = field.levels.ravel(), field.levels.shape[1:]
-    marks = fresh_marks(field, openings, blocked)
+    start, marks = cavity_start(field, openings), fresh_marks(field, openings, blocked)
     touched = bool(fill(levels, marks, start, least, CAVITY, *shape))
     marks[start] = CAVITY
     fill(levels, marks, _beside_outside(field), least, OUTSIDE, *shape)
