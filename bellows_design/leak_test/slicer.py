@@ -8,7 +8,6 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bellows_design.design.design import Design
 from bellows_design.geometry.tessellation import ClosedMesh
@@ -50,7 +49,7 @@ def tested(slicer: Slicer, design: Design, mesh: ClosedMesh) -> LeakOutcome:
         [_placed(port_opening(design), sliced.placement)],
         profile,
         solid_volume=mesh.volume,
-        transform=_to_part(sliced.placement),
+        transform=sliced.placement.to_part,
     )
     return LeakOutcome(
         slicer=sliced.slicer,
@@ -68,11 +67,3 @@ def _placed(opening: Opening, placement: Placement) -> Opening:
     points = placement.to_gcode(np.array([centre, centre + opening.direction]))
     there, direction = points[0].tolist(), (points[1] - points[0]).tolist()
     return replace(opening, centre=tuple(there), direction=tuple(direction))
-
-
-def _to_part(placement: Placement) -> NDArray[np.float64]:
-    """(4, 4), from coordinates on the bed to those of the part."""
-    origin, *units = placement.to_part(np.vstack([np.zeros(3), np.eye(3)]))
-    matrix = np.eye(4)
-    matrix[:3, :3], matrix[:3, 3] = np.array(units).T - origin[:, None], origin
-    return matrix
