@@ -58,7 +58,8 @@ def _settings(profile: PrinterProfile) -> Remedy:
     return (
         f"Look up the slicer's settings: layers {profile.layer_height:g} mm, overlap "
         f"{slicer.infill_overlap:g} %, seam {slicer.seam}, {slicer.perimeters} perimeters.",
-        "A slicer may drop or override what the files beside this sheet ask for.",
+        "A slicer may drop what the files beside this sheet ask for; thin layers, overlap and "
+        "scattered seams are what seals.",
     )
 
 
