@@ -41,6 +41,7 @@ from bellows_design.cli.options import (
     DesignName,
     DesignOptions,
     ElongationAtBreak,
+    ExportFolder,
     FitData,
     FitModelName,
     GaugeLength,
@@ -51,6 +52,7 @@ from bellows_design.cli.options import (
     NoCache,
     Pressure,
     Printer,
+    Quick,
     Settings,
     Skip,
     TimeLimit,
@@ -58,6 +60,7 @@ from bellows_design.cli.options import (
     TrueStress,
     Units,
     Vtu,
+    WithSettings,
     YieldStrength,
 )
 from bellows_design.cli.studies.optimize_command import optimize
@@ -117,11 +120,12 @@ def design(
         Path, typer.Option("-o", "--output", help="File to write: .stl, .3mf or .step.")
     ],
     settings: Settings = None,
+    with_settings: WithSettings = False,
     as_json: AsJson = False,
 ) -> None:
     """Build the printed part and write it as STL, 3MF or STEP."""
     options = DesignOptions(name, tuple(settings or ()))
-    answer(lambda: actions.design(options, output), as_json)
+    answer(lambda: actions.design(options, output, with_settings), as_json)
 
 
 @app.command()
@@ -189,6 +193,21 @@ def run(
     options = DesignOptions(name, tuple(settings or ()), printer)
     limits = BudgetOptions(memory, mesh_seconds, seconds)
     answer(lambda: actions.run(options, output, limits, not no_cache), as_json)
+
+
+@app.command()
+def verify(
+    folder: ExportFolder,
+    quick: Quick = False,
+    memory: Memory = None,
+    mesh_seconds: MeshSeconds = None,
+    seconds: TimeLimit = None,
+    no_cache: NoCache = False,
+    as_json: AsJson = False,
+) -> None:
+    """Check every file of an export, and whether it would be approved again."""
+    limits = BudgetOptions(memory, mesh_seconds, seconds)
+    answer(lambda: actions.verify(folder, quick, limits, not no_cache), as_json)
 
 
 @app.command()

@@ -55,6 +55,10 @@ class Turning:
         return self.name == "Z"
 
 
+AS_IN_FILE = Turning(AXES["Z"])
+"""z of the file upwards."""
+
+
 def parse_up(text: str) -> Turning:
     """`X`, `-X`, … `-Z`, or `X,Y,Z`, a vector of any length. Raises PrintersError."""
     axis = AXES.get(text.strip().upper().removeprefix("+"))
