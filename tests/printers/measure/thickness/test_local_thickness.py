@@ -24,10 +24,11 @@ def test_thickness_of_analytic_shells_is_within_two_percent_or_a_facet(
     shell: str, thickness: float
 ) -> None:
     found = measured(merged_surface(*SHELLS[shell](thickness, 160)))
-    thin = np.isfinite(found.thickness)
+    # Where the box's floor meets its walls, and at the rims of the tube, is no wall of that kind.
+    above = found.samples.points[:, 2] > found.samples.points[:, 2].min() + thickness
+    thin = np.isfinite(found.thickness) & above
     error = np.abs(found.thickness[thin] - thickness)
-    # The rims of the tube and the bottom edges of the box are no walls; all else is measured.
-    assert thin.mean() > 0.8
+    assert thin[above].mean() > 0.85
     assert np.quantile(error, 0.99) <= max(0.02, 0.02 * thickness)
 
 
