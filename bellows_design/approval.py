@@ -8,18 +8,21 @@ that walls run through each other in, elements that fold at the highest stress, 
 error estimate, or a result that depends on another design's, are never taken for a pass. Strains
 outside of the range the material was tested in are a warning: the range is that of the tests, not
 of the material. What cannot be judged is listed, with the reason.
+
+Where nothing speaks against a design, the leak test on a slicer's G-code may still (``leak_test``).
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from typing import TYPE_CHECKING, Any, Literal
 
 from bellows_design.analysis.error_estimate import LEAST_STRESS_ERROR
 from bellows_design.design.conditions import LEAST_PRESSURE
 from bellows_design.design.design import Design
-from printers import PrintabilityReport
+from bellows_design.leak_test.record import RULE, LeakTest, Unavailable
+from printers import PrintabilityReport, RuleResult
 
 if TYPE_CHECKING:
     from bellows_design.analysis.evaluation import LoadedState
@@ -106,6 +109,55 @@ def decide(design: Design, report: PrintabilityReport, state: LoadedState) -> Ve
     return Verdict(reasons, tuple(warnings), _not_judged(design, state))
 
 
+def refused_for_want_of_a_slicer(
+    design: Design, report: PrintabilityReport, unavailable: Unavailable
+) -> Verdict:
+    """The verdict on a design that requires a leak test where none can be made.
+
+    No evaluation could change it, so none is needed for it.
+    """
+    missing = _missing_leak_test(f"no leak test can be made: {unavailable.why}")
+    return Verdict((*_print_reasons(report), missing), tuple(design.material.warnings))
+
+
+def without_evaluation(report: PrintabilityReport) -> Verdict:
+    """What the printability alone says: no approval, as nothing else is judged."""
+    left_out = NotJudged("evaluation", "it was left out")
+    return Verdict(_print_reasons(report), not_judged=(left_out,))
+
+
+def with_leak_test(verdict: Verdict, test: LeakTest) -> Verdict:
+    """The verdict once the leak test is over, or was left out.
+
+    Warnings name rules alone: their figures are those of one run of the slicer.
+    """
+    if test.outcome is None:
+        return _without_leak_test(verdict, test)
+    failed = tuple(_failed(rule) for rule in test.rules if rule.verdict == "fail")
+    warned = tuple(
+        f"The leak test warns: {rule}."
+        for rule in dict.fromkeys(rule.rule for rule in test.rules if rule.verdict == "warn")
+    )
+    return replace(verdict, reasons=verdict.reasons + failed, warnings=verdict.warnings + warned)
+
+
+def _without_leak_test(verdict: Verdict, test: LeakTest) -> Verdict:
+    """A required test that could not be finished is a reason, any other is not judged."""
+    if verdict.approved and test.setting == "required":
+        return replace(verdict, reasons=(_missing_leak_test(test.why),))
+    failure = (f"The leak test could not be finished: {test.why}.",) if test.failed else ()
+    return replace(
+        verdict,
+        warnings=verdict.warnings + failure,
+        not_judged=(*verdict.not_judged, NotJudged(RULE, test.why)),
+    )
+
+
+def _missing_leak_test(why: str) -> Reason:
+    message = f"The design requires a leak test (limits.leak_test), but {why}."
+    return Reason("printability", RULE, "not run", "pass", "", message)
+
+
 def open_question(design: Design, report: PrintabilityReport, state: LoadedState) -> str:
     """What a finer mesh may decide, as text; empty if nothing."""
     estimated = state.error_estimate.max_von_mises_percent is not None
@@ -140,11 +192,7 @@ def _not_judged(design: Design, state: LoadedState) -> tuple[NotJudged, ...]:
 
 
 def _print_reasons(report: PrintabilityReport) -> tuple[Reason, ...]:
-    failed = tuple(
-        Reason("printability", rule.rule, rule.measured, rule.required, rule.unit, rule.message)
-        for rule in report.rules
-        if rule.verdict == "fail"
-    )
+    failed = tuple(_failed(rule) for rule in report.failures)
     checked = {rule.rule for rule in report.rules}
     missing = tuple(
         Reason("printability", name, "not checked", "pass", "", f"{name} was not checked.")
@@ -152,6 +200,10 @@ def _print_reasons(report: PrintabilityReport) -> tuple[Reason, ...]:
         if name not in checked
     )
     return failed + missing
+
+
+def _failed(rule: RuleResult) -> Reason:
+    return Reason("printability", rule.rule, rule.measured, rule.required, rule.unit, rule.message)
 
 
 def _history_reasons(state: LoadedState) -> tuple[Reason, ...]:

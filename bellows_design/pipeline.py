@@ -1,19 +1,24 @@
-"""All stages in order: the part, its printability, its evaluation, the verdict, the files."""
+"""All stages in order: part, printability, evaluation, leak test, verdict, files.
+
+``examine`` finds out, ``run`` writes what follows from it.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from bellows_design.budget import DEFAULT, Budget
 from bellows_design.design.design import Design
-from bellows_design.export.formats import Part
+from bellows_design.export.part import Part
+from bellows_design.printability import check_dict as check_dict
 from bellows_design.progress import SILENCE, Progress
 
 if TYPE_CHECKING:
     from bellows_design.analysis.evaluation import Evaluation, LoadedState
     from bellows_design.approval import Verdict
+    from bellows_design.leak_test.record import LeakTest, LeakTester, Unavailable
     from bellows_design.store.store import Store
     from printers.report import PrintabilityReport
 
@@ -25,30 +30,36 @@ class Outcome:
     Attributes:
         design: The design that was run.
         report: Printability of its part.
-        evaluation: The actuator under its design pressure.
+        evaluation: The actuator under its design pressure; None if the design was refused before.
         verdict: Approval, or all reasons against it.
+        leak_test: What became of the leak test.
+        part: The solid as printed and its mesh.
         folder: Where the approved files are; None if the design is refused.
         withdrawn: Folder of an earlier approved export that this refusal took back.
     """
 
     design: Design
     report: PrintabilityReport
-    evaluation: Evaluation
+    evaluation: Evaluation | None
     verdict: Verdict
+    leak_test: LeakTest
+    part: Part = field(repr=False, compare=False)
     folder: Path | None = None
     withdrawn: Path | None = None
 
     def to_dict(self) -> dict[str, Any]:
         """Plain values for JSON."""
+        evaluation = self.evaluation
         return {
             "design": self.design.name,
             "digest": self.design.digest,
             **self.verdict.to_dict(),
             "folder": None if self.folder is None else str(self.folder),
             "withdrawn": None if self.withdrawn is None else str(self.withdrawn),
-            "from_cache": self.evaluation.from_cache or None,
+            "from_cache": None if evaluation is None else evaluation.from_cache or None,
             "check": check_dict(self.design, self.report),
-            "evaluation": self.evaluation.to_dict(),
+            "leak_test": self.leak_test.to_dict(),
+            "evaluation": None if evaluation is None else evaluation.to_dict(),
         }
 
 
@@ -58,12 +69,9 @@ def run(
     progress: Progress = SILENCE,
     budget: Budget = DEFAULT,
     store: Store | None = None,
+    leak_tester: LeakTester | Unavailable | None = None,
 ) -> Outcome:
     """Build, check and evaluate ``design``, decide, and export it if it is approved.
-
-    Every rule is applied even after one has failed, so that a refusal names all reasons. Where
-    only the estimated error keeps the verdict open, the mesh is refined and decided upon again, as
-    far as the budget allows.
 
     Args:
         design: What is to be printed and pressurised.
@@ -72,6 +80,7 @@ def run(
         progress: Listens to stages and load.
         budget: Memory (GiB) and seconds that a mesh may take.
         store: Where evaluations are looked for and kept; None for none.
+        leak_tester: The leak test, or why there is none; None for that of this machine.
 
     Returns:
         Printability, evaluation, verdict, and what became of the files.
@@ -82,23 +91,87 @@ def run(
         MeshingError: No usable mesh, or none in time.
         OSError: The files could not be written; then nothing has changed.
     """
-    from bellows_design.approval import decide, open_question
     from bellows_design.export.approved import require_place
+
+    require_place(design.name, output_root)
+    found = examine(design, progress, budget, store, leak_tester)
+    return _settled(found, output_root)
+
+
+def examine(
+    design: Design,
+    progress: Progress = SILENCE,
+    budget: Budget = DEFAULT,
+    store: Store | None = None,
+    leak_tester: LeakTester | Unavailable | None = None,
+) -> Outcome:
+    """All that ``run`` finds out, and no files.
+
+    Every rule is applied even after one has failed, so that a refusal names all reasons. Where
+    only the estimated error keeps the verdict open, the mesh is refined and decided upon again, as
+    far as the budget allows. The leak test is made of designs that nothing else speaks against; one
+    that requires it where there is none is refused before it is evaluated.
+
+    Arguments and errors are those of ``run``.
+    """
+    from bellows_design.approval import decide, refused_for_want_of_a_slicer, with_leak_test
+    from bellows_design.leak_test.record import LeakTest, Unavailable
+    from bellows_design.leak_test.slicer import usual_tester
+
+    tester = usual_tester() if leak_tester is None else leak_tester
+    progress.stage("geometry")
+    part = build_part(design)
+    progress.stage("check")
+    report = check(design, part)
+    setting = design.limits.leak_test
+    if setting == "required" and isinstance(tester, Unavailable):
+        verdict = refused_for_want_of_a_slicer(design, report, tester)
+        return Outcome(design, report, None, verdict, LeakTest(setting, why=tester.why), part)
+    evaluation = _evaluated(design, report, progress, budget, store)
+    verdict = decide(design, report, evaluation)
+    test = _leak_test(design, part, tester, verdict, progress)
+    return Outcome(design, report, evaluation, with_leak_test(verdict, test), test, part)
+
+
+def _evaluated(
+    design: Design,
+    report: PrintabilityReport,
+    progress: Progress,
+    budget: Budget,
+    store: Store | None,
+) -> Evaluation:
+    from bellows_design.approval import open_question
     from bellows_design.store.lookup import evaluated
 
     def question(state: LoadedState) -> str:
         return open_question(design, report, state)
 
-    require_place(design.name, output_root)
-    progress.stage("geometry")
-    part = build_part(design)
-    progress.stage("check")
-    report = check(design, part)
-    evaluation = evaluated(
-        design, progress=progress, budget=budget, open_question=question, store=store
-    )
-    verdict = decide(design, report, evaluation)
-    return _settled(Outcome(design, report, evaluation, verdict), part, output_root)
+    return evaluated(design, progress=progress, budget=budget, open_question=question, store=store)
+
+
+def _leak_test(
+    design: Design,
+    part: Part,
+    tester: LeakTester | Unavailable,
+    verdict: Verdict,
+    progress: Progress,
+) -> LeakTest:
+    """The leak test, or why it was left out."""
+    from bellows_design.leak_test.record import LeakTest, Unavailable
+    from printers.errors import PrintersError
+
+    setting = design.limits.leak_test
+    if setting == "off":
+        return LeakTest(setting, why="the design switches it off")
+    if not verdict.approved:
+        return LeakTest(setting, why="the design is refused without it")
+    if isinstance(tester, Unavailable):
+        return LeakTest(setting, why=tester.why)
+    progress.stage("leak test")
+    try:
+        return LeakTest(setting, tester(design, part.mesh))
+    except PrintersError as error:
+        return LeakTest(setting, why=str(error).rstrip("."), failed=True)
 
 
 def build_part(design: Design) -> Part:
@@ -108,18 +181,22 @@ def build_part(design: Design) -> Part:
         design: Twelve numbers, port and, if there is one, indent, mm.
 
     Returns:
-        The solid as printed and its watertight triangle mesh, mm, with the labels of the design.
+        The solid as printed and its watertight triangle mesh, mm, with the labels of the design and
+        the profile of its printer.
 
     Raises:
         DesignError: Indent or port do not fit the bellows.
         GeometryError: The CAD kernel cannot build the solid.
         TessellationError: The solid's triangles do not close.
+        PrintersError: The design's printer is unknown.
     """
     from bellows_design.geometry.actuator import printed_part
     from bellows_design.geometry.tessellation import tessellate
 
+    profile = design.profile()
     solid = printed_part(design.bellows, design.indent, design.port).solid
-    return Part(design.name, design.description, design.digest, solid, tessellate(solid))
+    mesh = tessellate(solid)
+    return Part(design.name, design.description, design.digest, solid, mesh, profile)
 
 
 def check(design: Design, part: Part, printer: str | None = None) -> PrintabilityReport:
@@ -143,19 +220,15 @@ def check(design: Design, part: Part, printer: str | None = None) -> Printabilit
     return check_printability(printed_model(design, part.mesh), profile)
 
 
-def check_dict(design: Design, report: PrintabilityReport) -> dict[str, Any]:
-    """The report on ``design`` as plain values for JSON."""
-    return {"design": design.name, "digest": design.digest, **report.to_dict()}
-
-
-def _settled(found: Outcome, part: Part, output_root: Path) -> Outcome:
+def _settled(found: Outcome, output_root: Path) -> Outcome:
     """The outcome once an approved part is exported, or an earlier export of it withdrawn."""
     from bellows_design.export.approved import export_approved
+    from bellows_design.export.statements import companions, grounds, run_statement
 
     if not found.verdict.approved:
         return replace(found, withdrawn=_withdrawn(found, output_root))
-    folder = export_approved(part, found.verdict, _grounds(found), output_root)
-    return replace(found, folder=folder)
+    stated = grounds(found), output_root, companions(found), run_statement(found)
+    return replace(found, folder=export_approved(found.part, found.verdict, *stated))
 
 
 def _withdrawn(found: Outcome, output_root: Path) -> Path | None:
@@ -170,16 +243,3 @@ def _withdrawn(found: Outcome, output_root: Path) -> Path | None:
         rules = ", ".join(dict.fromkeys(reason.rule for reason in found.verdict.reasons))
         why = f"{error.strerror or error}; it is refused ({rules}), but its earlier export remains"
         raise CannotWrite(output_root / name, why) from error
-
-
-def _grounds(found: Outcome) -> dict[str, Any]:
-    """What an approval rests on, as plain values for the manifest."""
-    from bellows_design.geometry.tessellation import TOLERANCE
-
-    return {
-        "design": found.design.model_dump(mode="json", exclude_none=True),
-        "printer": found.design.profile().model_dump(mode="json"),
-        "mesh_tolerance_mm": TOLERANCE,
-        "check": check_dict(found.design, found.report),
-        "evaluation": found.evaluation.to_dict(),
-    }

@@ -1,10 +1,19 @@
-"""What a design declares to the printability rules: its walls, gaps and one opening."""
+"""What a design declares to the printability rules: walls, gaps and one opening. Their report."""
 
 from __future__ import annotations
 
+from typing import Any
+
 from bellows_design.design.design import Design
 from bellows_design.geometry.tessellation import ClosedMesh
-from printers import DeclaredGap, DeclaredWall, Opening, PrintedModel
+from printers import (
+    DeclaredGap,
+    DeclaredWall,
+    Opening,
+    PrintabilityReport,
+    PrintedModel,
+    PrinterProfile,
+)
 
 
 def printed_model(design: Design, mesh: ClosedMesh) -> PrintedModel:
@@ -43,3 +52,15 @@ def port_opening(design: Design) -> Opening:
         direction=(-1.0, 0.0, 0.0),
         radius=port.tube_diameter / 2,
     )
+
+
+def turned_to_fit(mesh: ClosedMesh, profile: PrinterProfile) -> bool:
+    """Whether the part lies across the bed: longer than it is wide, but not than it is deep."""
+    extents = mesh.vertices.max(axis=0) - mesh.vertices.min(axis=0)
+    (length, width, _), bed = extents, profile.build_volume
+    return bool(length > bed[0] and length <= bed[1] and width <= bed[0])
+
+
+def check_dict(design: Design, report: PrintabilityReport) -> dict[str, Any]:
+    """The report on ``design`` as plain values for JSON."""
+    return {"design": design.name, "digest": design.digest, **report.to_dict()}

@@ -71,7 +71,7 @@ class DeclaredGap:
 
 @dataclass(frozen=True)
 class Opening:
-    """A round hole into the cavity that is meant to be there.
+    """A hole into the cavity that is meant to be there.
 
     Attributes:
         name: As it appears in the report.
@@ -79,20 +79,29 @@ class Opening:
             *Shape:* `(3,)`
         direction: Unit vector out of the part.
             *Shape:* `(3,)`
-        radius: Of the bore, mm.
+        radius: Of the bore, mm; of the widest pin that enters, if it is not round.
+        reach: Radius around the axis within which a mouth that is not round lies, mm.
 
     Raises:
-        PrintersError: A number is not finite, the radius not within (0, 100] mm or the direction
-            no unit vector.
+        PrintersError: A number is not finite, the radius or the reach not within (0, 100] mm or
+            the direction no unit vector.
     """
 
     name: str
     centre: tuple[float, float, float]
     direction: tuple[float, float, float]
     radius: float
+    reach: float | None = None
+
+    @property
+    def plug_radius(self) -> float:
+        """Of a plug that closes it, mm, but for a margin."""
+        return max(self.radius, self.reach or 0.0)
 
     def __post_init__(self) -> None:
         _require_length(f"radius of opening {self.name}", self.radius)
+        if self.reach is not None:
+            _require_length(f"reach of opening {self.name}", self.reach)
         for label, vector in (("centre", self.centre), ("direction", self.direction)):
             if len(vector) != 3 or not all(math.isfinite(value) for value in vector):
                 raise PrintersError(

@@ -87,6 +87,31 @@ def load_filament(name_or_path: str | Path) -> Filament:
         raise PrintersError(f"filament {quoted(str(name_or_path))}: {error}") from None
 
 
+def with_filament(profile: PrinterProfile, name_or_path: str | Path) -> PrinterProfile:
+    """The profile with another filament: its temperatures and its greatest flow.
+
+    The multiplier of the extrusion stays the profile's, which it chose so that walls seal.
+
+    Args:
+        profile: The printer.
+        name_or_path: A filament's name, as `available_filaments` lists them, or a file.
+
+    Returns:
+        The checked profile.
+
+    Raises:
+        PrintersError: As `load_profile`; or the print speed asks for more than the filament's flow.
+    """
+    filament = load_filament(name_or_path)
+    settings = {key: getattr(filament, key) for key in ADVISED if key != "flow"}
+    table = profile.model_dump()
+    slicer = table["slicer"] | settings
+    try:
+        return PrinterProfile(**(table | {"filament": filament, "slicer": slicer}))
+    except PrintersError as error:
+        raise PrintersError(f"filament {quoted(str(name_or_path))}: {error}") from None
+
+
 def profile_from_table(table: Mapping[str, Any], origin: Origin = NOWHERE) -> PrinterProfile:
     """A profile from the keys of a file: it may extend another and name its filament.
 

@@ -8,6 +8,8 @@ from tempfile import TemporaryDirectory
 
 import pytest
 
+from printers.slicing.finding import VARIABLE, find_slicer
+
 
 @pytest.fixture(scope="session")
 def _caches() -> Iterator[Path]:
@@ -23,3 +25,12 @@ def own_cache(
     folder = _caches / str(abs(hash(request.node.nodeid)))
     monkeypatch.setenv("BELLOWS_CACHE", str(folder))
     return folder
+
+
+@pytest.fixture(autouse=True)
+def no_slicer(monkeypatch: pytest.MonkeyPatch, request: pytest.FixtureRequest) -> None:
+    """No test runs a slicer but those marked so, which are skipped where there is none."""
+    if request.node.get_closest_marker("slicer") is None:
+        monkeypatch.setenv(VARIABLE, "")
+    elif find_slicer() is None:
+        pytest.skip("there is no slicer here: install PrusaSlicer")

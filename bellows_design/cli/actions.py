@@ -52,21 +52,27 @@ def init(kind: Kind, file: Path, force: bool) -> Answer:
     return Answer({"kind": kind.value, "file": str(file)}, [f"{file}: a {kind.value}"])
 
 
-def design(options: DesignOptions, output: Path) -> Answer:
-    """Build the printed part and write it in the format of ``output``'s suffix."""
+def design(options: DesignOptions, output: Path, with_settings: bool = False) -> Answer:
+    """Build the printed part and write it in the format of ``output``'s suffix.
+
+    A 3MF carries the settings of the design's printer if ``with_settings`` says so.
+    """
+    from bellows_design.export.companions import three_mf_with_settings
     from bellows_design.export.formats import write_part, writer_for
     from bellows_design.pipeline import build_part
     from bellows_design.progress import on_stderr
 
     require_address_space(GEOMETRY)
     chosen = options.load()
-    writer_for(output)
+    writer = three_mf_with_settings if with_settings else writer_for(output)
+    if with_settings:
+        require_file(output, ".3mf")
     require_folder(output)
     with on_stderr() as progress:
         progress.stage("geometry")
         part = build_part(chosen)
         progress.stage(f"write {output.name}")
-        write_part(part, output)
+        write_part(part, output, writer)
     triangles, volume = len(part.mesh.triangles), part.mesh.volume
     content = {
         "design": chosen.name,
@@ -76,24 +82,6 @@ def design(options: DesignOptions, output: Path) -> Answer:
         "volume_mm3": volume,
     }
     return Answer(content, [f"{output}: {triangles} triangles, {volume / 1000:.2f} cm³"])
-
-
-def check(options: DesignOptions) -> Answer:
-    """Check the part on its printer."""
-    from bellows_design import pipeline
-    from bellows_design.progress import on_stderr
-    from bellows_design.reports.check import check_table
-
-    require_address_space(CHECK)
-    chosen = options.load()
-    chosen.profile()
-    with on_stderr() as progress:
-        progress.stage("geometry")
-        part = pipeline.build_part(chosen)
-        progress.stage("check")
-        report = pipeline.check(chosen, part)
-    status = DONE if report.verdict == "pass" else REFUSED
-    return Answer(pipeline.check_dict(chosen, report), check_table(chosen, report), status)
 
 
 def evaluate(
@@ -169,9 +157,26 @@ def run(options: DesignOptions, output: Path, limits: BudgetOptions, cached: boo
     with solving() as progress:
         store = usual_store(progress) if cached else None
         outcome = pipeline.run(chosen, output, progress, budget, store)
-    refused = REFUSED if outcome.evaluation.converged else NOT_SOLVED
+    unsolved = outcome.evaluation is not None and not outcome.evaluation.converged
+    refused = NOT_SOLVED if unsolved else REFUSED
     status = DONE if outcome.verdict.approved else refused
     return Answer(outcome.to_dict(), outcome_table(outcome), status)
+
+
+def verify(folder: Path, quick: bool, limits: BudgetOptions, cached: bool) -> Answer:
+    """Check every file of an export, and whether its design would be approved again."""
+    from bellows_design.reports.verification import verification_table
+
+    require_working_folder()
+    require_address_space(CHECK if quick else EVALUATION)
+    budget = limits.budget()
+    from bellows_design.verification.verify import Means, verify
+
+    with solving() as progress:
+        store = usual_store(progress) if cached and not quick else None
+        found = verify(folder, quick, Means(progress, budget, store))
+    status = REFUSED if found.problems else DONE
+    return Answer(found.to_dict(), verification_table(found), status)
 
 
 def benchmark(

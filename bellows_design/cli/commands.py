@@ -16,6 +16,18 @@ import typer
 from bellows_design.analysis.model_names import ModelName
 from bellows_design.cli import actions
 from bellows_design.cli.answer import Answer, answer
+from bellows_design.cli.checking.options import (
+    Checked,
+    CheckOptions,
+    FilamentName,
+    KeepGcode,
+    Openings,
+    OrientationChoice,
+    Picture,
+    RequireSlicer,
+    Slice,
+    Up,
+)
 from bellows_design.cli.options import (
     AcceptPoorFit,
     Accuracy,
@@ -29,6 +41,7 @@ from bellows_design.cli.options import (
     DesignName,
     DesignOptions,
     ElongationAtBreak,
+    ExportFolder,
     FitData,
     FitModelName,
     GaugeLength,
@@ -39,6 +52,7 @@ from bellows_design.cli.options import (
     NoCache,
     Pressure,
     Printer,
+    Quick,
     Settings,
     Skip,
     TimeLimit,
@@ -46,6 +60,7 @@ from bellows_design.cli.options import (
     TrueStress,
     Units,
     Vtu,
+    WithSettings,
     YieldStrength,
 )
 from bellows_design.cli.studies.optimize_command import optimize
@@ -105,23 +120,37 @@ def design(
         Path, typer.Option("-o", "--output", help="File to write: .stl, .3mf or .step.")
     ],
     settings: Settings = None,
+    with_settings: WithSettings = False,
     as_json: AsJson = False,
 ) -> None:
     """Build the printed part and write it as STL, 3MF or STEP."""
     options = DesignOptions(name, tuple(settings or ()))
-    answer(lambda: actions.design(options, output), as_json)
+    answer(lambda: actions.design(options, output, with_settings), as_json)
 
 
 @app.command()
 def check(
-    name: DesignName,
+    name: Checked,
     printer: Printer = None,
+    filament: FilamentName = None,
+    opening: Openings = None,
+    up: Up = None,
+    orientation: OrientationChoice = None,
+    slice_it: Slice = False,
+    require_slicer: RequireSlicer = False,
+    picture: Picture = None,
+    keep_gcode: KeepGcode = None,
     settings: Settings = None,
     as_json: AsJson = False,
 ) -> None:
-    """Check the part against the rules of a printer."""
-    options = DesignOptions(name, tuple(settings or ()), printer)
-    answer(lambda: actions.check(options), as_json)
+    """Check a design, or a part of any program, against the rules of a printer."""
+    from bellows_design.cli.checking.check import check as check_part
+
+    options = CheckOptions(
+        name, tuple(settings or ()), printer, filament, tuple(opening or ()), up, orientation,
+        slice_it, require_slicer, picture, keep_gcode,
+    )  # fmt: skip
+    answer(lambda: check_part(options), as_json)
 
 
 @app.command()
@@ -164,6 +193,21 @@ def run(
     options = DesignOptions(name, tuple(settings or ()), printer)
     limits = BudgetOptions(memory, mesh_seconds, seconds)
     answer(lambda: actions.run(options, output, limits, not no_cache), as_json)
+
+
+@app.command()
+def verify(
+    folder: ExportFolder,
+    quick: Quick = False,
+    memory: Memory = None,
+    mesh_seconds: MeshSeconds = None,
+    seconds: TimeLimit = None,
+    no_cache: NoCache = False,
+    as_json: AsJson = False,
+) -> None:
+    """Check every file of an export, and whether it would be approved again."""
+    limits = BudgetOptions(memory, mesh_seconds, seconds)
+    answer(lambda: actions.verify(folder, quick, limits, not no_cache), as_json)
 
 
 @app.command()

@@ -26,6 +26,16 @@ Settings = Annotated[
         help="Change one value: bubble_thickness=1.2, indent.depth=0.4. Repeatable.",
     ),
 ]
+ExportFolder = Annotated[
+    Path, typer.Argument(metavar="FOLDER", help="Folder of an export, such as exports/finger.")
+]
+Quick = Annotated[
+    bool, typer.Option("--quick", help="Leave out evaluation and leak test, and say so.")
+]
+WithSettings = Annotated[
+    bool,
+    typer.Option("--with-settings", help="A .3mf that carries the printer's settings as well."),
+]
 AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object instead of text.")]
 Printer = Annotated[
     str | None, typer.Option(help="Printer profile, or a TOML file, instead of the design's.")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Literal
+
 from pydantic import Field, field_validator
 from pydantic_core import PydanticKnownError
 
@@ -13,6 +15,9 @@ ATMOSPHERE = 0.101325
 
 LEAST_PRESSURE = 0.001
 """MPa, of either sign."""
+
+LeakTestSetting = Literal["off", "if-available", "required"]
+"""Whether what a slicer makes of the part is tested for leaks before the part is approved."""
 
 
 class Load(Parameters):
@@ -41,7 +46,10 @@ class Load(Parameters):
 
 
 class Limits(Parameters):
-    """What an approved design must keep, besides the printer's rules: stress in MPa, room in mm."""
+    """What an approved design must keep, besides the printer's rules: stress in MPa, room in mm.
+
+    ``leak_test`` says whether the part must pass the leak test on a slicer's G-code as well.
+    """
 
     max_von_mises: float | None = Field(
         default=None,
@@ -52,3 +60,6 @@ class Limits(Parameters):
     )
     cross_section_width: float = length_field(4, 250, "room along y", 20.0)
     cross_section_height: float = length_field(4, 250, "room along z", 20.0)
+    leak_test: LeakTestSetting = Field(
+        default="if-available", description="whether a slicer's G-code must pass the leak test"
+    )

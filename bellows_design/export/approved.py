@@ -1,10 +1,9 @@
 """The folder of an approved design.
 
-``exports/NAME/`` holds ``NAME.stl``, ``NAME.3mf``, ``NAME.step`` and ``manifest.json``. The folder
-is written under a hidden name beside its place, read back and compared, and renamed when it is
-complete: a reader finds all of it or nothing. The manifest states the design, the verdict's grounds
-and the hash of every file. Runs that export to one folder take turns: each finishes, or withdraws,
-a whole export before the next begins.
+``exports/NAME/`` holds ``NAME.stl``, ``NAME.3mf``, ``NAME.step``, what ships with the part,
+``manifest.json`` and ``run.json``. The folder is written under a hidden name beside its place, read
+back and compared, and renamed when it is complete: a reader finds all of it or nothing. Runs that
+export to one folder take turns: each finishes, or withdraws, a whole export before the next begins.
 
 A name has one current verdict. An export replaces the earlier one of its name, and a refusal
 withdraws it, so that an outdated approval is never taken for the current one. Nothing is lost: the
@@ -15,17 +14,24 @@ never a file or folder that someone else put there.
 from __future__ import annotations
 
 import errno
-import hashlib
-import json
 import os
 import shutil
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from bellows_design.errors import BellowsError, DesignError
-from bellows_design.export.formats import WRITERS
+from bellows_design.export.contents import contents
+from bellows_design.export.manifest import (
+    MANIFEST,
+    RUN,
+    fingerprint,
+    is_plain,
+    listed_files,
+    run_of,
+)
 from bellows_design.export.part import Part
 from bellows_design.export.read_back import require_same
 from bellows_design.files.atomic import (
@@ -36,26 +42,30 @@ from bellows_design.files.atomic import (
     temporary_beside,
 )
 from bellows_design.files.errors import CannotWrite
-from bellows_design.files.json_files import json_text
 from bellows_design.files.locks import locked
 from bellows_design.validation.quoting import quoted
 
 if TYPE_CHECKING:
     from bellows_design.approval import Verdict
 
-MANIFEST = "manifest.json"
-MANIFEST_FORMAT = "bellows-design manifest 1"
+NOTHING: Mapping[str, Any] = MappingProxyType({})
 
 PATIENCE = 60.0
 """s, for which a run waits for others that export to the same folder; each takes some two."""
 
 
 def export_approved(
-    part: Part, verdict: Verdict, grounds: Mapping[str, Any], output_root: Path
+    part: Part,
+    verdict: Verdict,
+    grounds: Mapping[str, Any],
+    output_root: Path,
+    companions: Mapping[str, bytes] = NOTHING,
+    run: Mapping[str, Any] = NOTHING,
 ) -> Path:
     """Write the approved ``part`` into ``output_root/NAME`` and return that folder.
 
-    ``grounds`` goes into the manifest (design, check, evaluation, versions).
+    ``grounds`` goes into the manifest (design, check, evaluation, versions), ``companions`` are
+    further files by their names, and ``run`` (times, machine) goes into ``run.json``.
 
     Raises:
         BellowsError: The verdict is no approval.
@@ -68,7 +78,8 @@ def export_approved(
     try:
         with _folder(output_root), locked(output_root, PATIENCE):
             require_place(part.name, output_root)
-            _replace(target, part, verdict, grounds)
+            files = contents(part, verdict, grounds, companions)
+            _replace(target, part, files | {RUN: _run_file(files, run)})
     except OSError as error:
         reason = error.strerror or str(error)
         raise CannotWrite(target, f"{reason}; it is approved, but not exported") from error
@@ -100,7 +111,7 @@ def withdraw(name: str, output_root: Path) -> Path | None:
         return None
     with locked(output_root, PATIENCE):
         remove_leftovers(output_root)
-        listed = _listed_files(folder)
+        listed = listed_files(folder)
         if listed is None:
             return None
         for name_of_file in (MANIFEST, *listed):
@@ -125,37 +136,30 @@ def _folder(place: Path) -> Iterator[None]:
         raise
 
 
-def _replace(target: Path, part: Part, verdict: Verdict, grounds: Mapping[str, Any]) -> None:
+def _run_file(files: Mapping[str, bytes], run: Mapping[str, Any]) -> bytes:
+    """What differs between two runs, with the manifest that it belongs to."""
+    return run_of({"manifest": fingerprint(files[MANIFEST])["sha256"], **run})
+
+
+def _replace(target: Path, part: Part, files: Mapping[str, bytes]) -> None:
     """Make the export under a hidden name, look at what came of it, and put it in place."""
     remove_leftovers(target.parent)
     with at_work(target) as fresh:
         fresh.mkdir(mode=0o700)
         with locked(fresh):
-            _require_written(fresh, part, _fill(fresh, part, verdict, grounds))
+            _fill(fresh, files)
+            _require_written(fresh, part, files)
             _swap(fresh, target)
 
 
-def _fill(
-    folder: Path, part: Part, verdict: Verdict, grounds: Mapping[str, Any]
-) -> dict[str, bytes]:
-    """Write all files; their contents by name."""
+def _fill(folder: Path, files: Mapping[str, bytes]) -> None:
+    """Write all files."""
     open_to_readers(folder)
-    files = {f"{part.name}{suffix}": write(part) for suffix, write in WRITERS.items()}
-    manifest = {
-        "format": MANIFEST_FORMAT,
-        "name": part.name,
-        "digest": part.digest,
-        "verdict": verdict.to_dict(),
-        **grounds,
-        "files": {name: _fingerprint(files[name]) for name in sorted(files)},
-    }
-    files[MANIFEST] = json_text(manifest).encode()
     for name, content in files.items():
         with (folder / name).open("xb") as file:
             file.write(content)
             file.flush()
             os.fsync(file.fileno())
-    return files
 
 
 def _require_written(folder: Path, part: Part, files: Mapping[str, bytes]) -> None:
@@ -175,10 +179,6 @@ def _nearest_folder(place: Path) -> Path:
     return place
 
 
-def _fingerprint(content: bytes) -> dict[str, Any]:
-    return {"sha256": hashlib.sha256(content).hexdigest(), "bytes": len(content)}
-
-
 def _swap(fresh: Path, target: Path) -> None:
     """Put ``fresh`` in ``target``'s place; on failure or interruption ``target`` is as before."""
     retired = temporary_beside(target)
@@ -196,7 +196,7 @@ def _require_ours(folder: Path) -> None:
     """Refuse to replace anything but a folder that holds nothing but an export of ours."""
     if not folder.exists() and not folder.is_symlink():
         return
-    listed = _listed_files(folder)
+    listed = listed_files(folder)
     present = {file.name for file in folder.iterdir()} if folder.is_dir() else set()
     others = sorted(present - {MANIFEST, *(listed or ())})
     if listed is None or others:
@@ -207,27 +207,7 @@ def _require_ours(folder: Path) -> None:
         )
 
 
-def _listed_files(folder: Path) -> tuple[str, ...] | None:
-    """Plain file names that the manifest of ours in ``folder`` lists; None without such a one."""
-    if folder.is_symlink() or not (folder / MANIFEST).is_file():
-        return None
-    try:
-        manifest = json.loads((folder / MANIFEST).read_text("utf-8"))
-    except (OSError, ValueError, RecursionError):
-        return None
-    if not isinstance(manifest, dict) or manifest.get("format") != MANIFEST_FORMAT:
-        return None
-    files = manifest.get("files")
-    names = files if isinstance(files, dict) else {}
-    return tuple(name for name in names if _is_plain(name))
-
-
-def _is_plain(name: str) -> bool:
-    """True if ``name`` names an entry of a folder itself, neither above it nor further down."""
-    return name == Path(name).name and name not in ("", "..", ".") and "\0" not in name
-
-
 def _require_plain(name: str) -> None:
     """Refuse names that lead out; those of designs never do, unless made without their checks."""
-    if not _is_plain(name):
+    if not is_plain(name):
         raise DesignError(f"{quoted(name)} is no name of a folder in the output folder.")

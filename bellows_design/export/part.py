@@ -10,13 +10,19 @@ from bellows_design.geometry.tessellation import ClosedMesh
 if TYPE_CHECKING:
     import cadquery as cq
 
+    from printers import PrinterProfile
+
 
 @dataclass(frozen=True)
 class Part:
-    """A design's solid and mesh together with the labels its files carry."""
+    """A design's solid and mesh together with the labels its files carry.
+
+    ``profile`` is that of the printer on whose bed it stands; None if that is open.
+    """
 
     name: str
     description: str
     digest: str
     solid: cq.Solid
     mesh: ClosedMesh
+    profile: PrinterProfile | None = None

@@ -12,22 +12,55 @@ from rich.text import Text
 
 if TYPE_CHECKING:
     from bellows_design.design.design import Design
+    from printers.orientation.compare import JudgedStance
     from printers.report import PrintabilityReport, RuleResult
 
 _STYLES = {"pass": "green", "info": "cyan", "warn": "yellow", "fail": "bold red"}
 
 
 def check_table(design: Design, report: PrintabilityReport) -> Sequence[RenderableType]:
-    """A row for every rule, then the sentences of those that did not pass."""
-    table = Table(title=f"{design.name} on {report.printer}", title_justify="left", box=SIMPLE)
+    """The report on a design's part."""
+    return report_table(design.name, report)
+
+
+def report_table(
+    title: str,
+    report: PrintabilityReport,
+    notes: Sequence[str] = (),
+    compared: Sequence[JudgedStance] = (),
+) -> Sequence[RenderableType]:
+    """Notes, the orientations that were compared, a row for every rule, and the sentences of those
+    that did not pass."""
+    table = Table(title=f"{title} on {report.printer}", title_justify="left", box=SIMPLE)
     table.add_column("", no_wrap=True)
     table.add_column("rule", no_wrap=True)
     for heading in ("measured", "required", "where"):
         table.add_column(heading)
     for rule in report.rules:
         table.add_row(*_row(rule))
-    notes = [f"{rule.verdict}: {rule.message}" for rule in report.rules if rule.verdict != "pass"]
-    return [table, *notes, f"printability: {report.verdict}"]
+    against = [f"{rule.verdict}: {rule.message}" for rule in report.rules if rule.verdict != "pass"]
+    said = [f"note: {note}" for note in notes]
+    orientations = [_orientations(compared)] if compared else []
+    return [*orientations, table, *said, *against, f"printability: {report.verdict}"]
+
+
+def _orientations(compared: Sequence[JudgedStance]) -> Table:
+    """A row for each way to stand, the best first."""
+    table = Table(title="orientations, the best first", title_justify="left", box=SIMPLE)
+    for heading in ("up", "on the bed", "height", "layers", "fails", "what speaks against it"):
+        table.add_column(heading, no_wrap=heading in ("up", "on the bed", "height"))
+    for each in compared:
+        alike = f" (+{each.stance.alike} alike)" if each.stance.alike else ""
+        cells = (
+            f"{each.stance.turning.name}{alike}",
+            f"{each.stance.contact:.0f} mm²",
+            f"{each.stance.height:.1f} mm",
+            str(each.layers),
+            str(len(each.report.failures)),
+            each.reason if each.is_whole else f"{each.reason} (other rules not applied)",
+        )
+        table.add_row(*(Text(cell) for cell in cells))
+    return table
 
 
 def _row(rule: RuleResult) -> tuple[Text, ...]:

@@ -13,16 +13,26 @@ from bellows_design.reports.evaluation import evaluation_table
 
 if TYPE_CHECKING:
     from bellows_design.approval import Verdict
+    from bellows_design.leak_test.record import LeakTest
     from bellows_design.pipeline import Outcome
 
 
 def outcome_table(outcome: Outcome) -> Sequence[RenderableType]:
-    """Check, evaluation, and the verdict with its reasons."""
+    """Check, evaluation, leak test, and the verdict with its reasons."""
     return [
         *check_table(outcome.design, outcome.report),
-        *evaluation_table(outcome.evaluation),
+        *(() if outcome.evaluation is None else evaluation_table(outcome.evaluation)),
+        *_leak_test(outcome.leak_test),
         *_verdict(outcome),
     ]
+
+
+def _leak_test(test: LeakTest) -> list[RenderableType]:
+    """With what it was made, and each of its rules."""
+    if test.outcome is None:
+        return []
+    made = f"leak test with {test.outcome.slicer} {test.outcome.version}: {test.result}"
+    return ["", *(f"{rule.verdict}: {rule.message}" for rule in test.rules), made]
 
 
 def _verdict(outcome: Outcome) -> list[RenderableType]:

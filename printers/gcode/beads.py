@@ -27,7 +27,7 @@ KIND_NAMES = (
     "bridge",
     "gap fill",
     "support",
-    "skirt or brim",
+    "skirt, brim or purge",
     "other",
 )
 """By the number of the kind."""
@@ -37,7 +37,9 @@ KIND_NAMES = (
 class Beads:
     """Straight beads in the order in which they are printed, in the frame of the G-code.
 
-    Arcs are parted into straight beads. Travels and moves without plastic are no beads.
+    Arcs are parted into straight beads. Travels and moves without plastic are no beads. Very short
+    beads have uncertain widths, since slicers round the filament to 10 nm and places to 1 µm: the
+    width of a bead 0.01 mm long and 0.1 mm high by a tenth.
 
     Attributes:
         start: Of the bead's axis in the plane of its layer, mm.
@@ -46,7 +48,7 @@ class Beads:
             *Shape:* `(n, 2)`
         top: Height of the nozzle above the bed, mm: the upper side of the bead.
             *Shape:* `(n,)`
-        height: Of the bead, mm: down to the layer below.
+        height: Of the bead, mm: as the slicer states it, or else down to the layer below.
             *Shape:* `(n,)`
         width: Of a rectangle as high as the bead that holds its plastic, mm: volume over length
             and height, from the filament that is fed.
@@ -91,5 +93,5 @@ class Beads:
 
     @property
     def of_part(self) -> Flags:
-        """(n,): beads that are part of the part, neither support nor skirt."""
+        """(n,): beads that are part of the part, neither support nor skirt, brim or purge."""
         return np.asarray((self.kind != SUPPORT) & (self.kind != SKIRT))

@@ -74,4 +74,4 @@ def test_what_seals_or_informs_keeps_its_severity(name: str) -> None:
 def test_the_names_of_a_profile_s_limits_are_numbers_of_it(prusa: PrinterProfile) -> None:
     limits = {rule.limit for rule in RULES.values() if rule.limit}
     assert {"minimum_wall", "minimum_floor", "minimum_gap", "maximum_bridge"} <= limits
-    assert all(isinstance(getattr(prusa, limit), float | tuple) for limit in limits)
+    assert all(isinstance(getattr(prusa, limit), float | int | tuple) for limit in limits)

@@ -117,7 +117,7 @@ def test_an_approved_export_is_complete_and_its_hashes_are_true(
     cube_part: Part, tmp_path: Path
 ) -> None:
     folder = export_approved(cube_part, APPROVED, {"check": {"verdict": "pass"}}, tmp_path / "out")
-    expected = ["cube.3mf", "cube.step", "cube.stl", "manifest.json"]
+    expected = ["cube.3mf", "cube.step", "cube.stl", "manifest.json", "run.json"]
     assert folder == tmp_path / "out" / "cube"
     assert names_below(tmp_path / "out") == ["cube", *(f"cube/{name}" for name in expected)]
     manifest = json.loads((folder / "manifest.json").read_text("utf-8"))

@@ -86,8 +86,8 @@ def test_what_others_do_to_the_hidden_folder_is_no_approval(
     before = {path.name: path.read_bytes() for path in (tmp_path / "cube").iterdir()}
     fill = approved._fill
 
-    def harmed(folder: Path, *arguments: object) -> dict[str, bytes]:
-        files = fill(folder, *arguments)  # type: ignore[arg-type]
+    def harmed(folder: Path, *arguments: object) -> None:
+        fill(folder, *arguments)  # type: ignore[arg-type]
         if harm == "changed":
             content = bytearray((folder / "cube.stl").read_bytes())
             content[-20] ^= 1
@@ -98,7 +98,6 @@ def test_what_others_do_to_the_hidden_folder_is_no_approval(
             (folder / "virus").touch()
         else:
             (folder / "manifest.json").write_text("{}")
-        return files
 
     monkeypatch.setattr(approved, "_fill", harmed)
     with pytest.raises(CannotWrite, match="it is approved, but not exported"):

@@ -1,0 +1,1 @@
+"""The command ``bellows check``: a design, a part of any program, or G-code, by the same rules."""

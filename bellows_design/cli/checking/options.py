@@ -1,0 +1,153 @@
+"""What ``bellows check`` takes from the command line."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from bellows_design.cli.options import DesignOptions
+from bellows_design.errors import DesignError
+from bellows_design.validation.quoting import quoted
+
+if TYPE_CHECKING:
+    from printers import PrinterProfile
+
+DEFAULT_PRINTER = "prusa_i3"
+PARTS = (".stl", ".3mf", ".step", ".stp")
+GCODE = (".gcode", ".gco", ".g")
+AUTO = "auto"
+
+Checked = Annotated[
+    str,
+    typer.Argument(
+        metavar="DESIGN|FILE",
+        help="A shipped design, a TOML file, or a part of any program: .stl, .3mf, .step, .gcode.",
+    ),
+]
+FilamentName = Annotated[
+    str | None,
+    typer.Option("--filament", help="Filament, or a TOML file, instead of the printer's."),
+]
+Openings = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--opening",
+        metavar="X,Y,Z[,D]",
+        help="Mouth of the cavity near this point of the file, of diameter D, mm; repeatable. "
+        "auto, as without it: the one that is found.",
+    ),
+]
+Up = Annotated[
+    str | None,
+    typer.Option(
+        metavar="AXIS", help="Direction of the file that points up: Z, -Z, X …, or X,Y,Z."
+    ),
+]
+OrientationChoice = Annotated[
+    str | None,
+    typer.Option("--orientation", metavar="auto", help="Compare how the part can stand."),
+]
+Slice = Annotated[
+    bool, typer.Option("--slice", help="Also slice it, and look for leaks in the G-code.")
+]
+RequireSlicer = Annotated[
+    bool, typer.Option("--require-slicer", help="With --slice: without a slicer the check fails.")
+]
+Picture = Annotated[
+    Path | None, typer.Option(help="Also draw the layer with the leak or the thinnest seal (.png).")
+]
+KeepGcode = Annotated[
+    Path | None,
+    typer.Option("--keep-gcode", metavar="FILE", help="Also write the G-code (.gcode)."),
+]
+
+
+@dataclass(frozen=True)
+class CheckOptions:
+    """What is checked, and how: the options as they were given."""
+
+    name: str
+    settings: tuple[str, ...] = ()
+    printer: str | None = None
+    filament: str | None = None
+    openings: tuple[str, ...] = ()
+    up: str | None = None
+    orientation: str | None = None
+    slice: bool = False
+    require_slicer: bool = False
+    picture: Path | None = None
+    keep_gcode: Path | None = None
+
+    @property
+    def suffix(self) -> str:
+        """Of the file that is checked, in small letters; empty for a design's name."""
+        return Path(self.name).suffix.lower()
+
+    @property
+    def is_part(self) -> bool:
+        """Whether a part of another program is checked."""
+        return self.suffix in PARTS
+
+    @property
+    def is_gcode(self) -> bool:
+        """Whether G-code is checked."""
+        return self.suffix in GCODE
+
+    @property
+    def is_design(self) -> bool:
+        """Whether a design is checked."""
+        return not (self.is_part or self.is_gcode)
+
+    @property
+    def design(self) -> DesignOptions:
+        """The design that is checked."""
+        return DesignOptions(self.name, self.settings, self.printer)
+
+    def profile(self) -> PrinterProfile:
+        """The printer for a file. Raises ``PrintersError``."""
+        from printers import load_profile
+
+        return self.with_filament(load_profile(self.printer or DEFAULT_PRINTER))
+
+    def with_filament(self, profile: PrinterProfile) -> PrinterProfile:
+        """The printer with the filament that was asked for. Raises ``PrintersError``."""
+        from printers.profile_files import with_filament
+
+        return profile if self.filament is None else with_filament(profile, self.filament)
+
+    def require_consistent(self) -> None:
+        """Raise ``DesignError`` for options that mean nothing here."""
+        self._require_known_file()
+        only_parts = "only a part in a file can be turned"
+        for option, given, holds, reason in (
+            ("--set", self.settings, self.is_design, "a file has no parameters"),
+            ("--opening", self.openings, not self.is_design, "a design declares its port"),
+            ("--up", self.up, self.is_part, only_parts),
+            (
+                "--orientation",
+                self.orientation,
+                self.is_part,
+                "only a part in a file can be turned",
+            ),
+            ("--slice", self.slice, not self.is_gcode, "G-code is sliced already"),
+            ("--keep-gcode", self.keep_gcode, self.slice, "it needs --slice"),
+            ("--require-slicer", self.require_slicer, self.slice, "it needs --slice"),
+            ("--picture", self.picture, self.slice or self.is_gcode, "it needs --slice"),
+        ):
+            if given and not holds:
+                raise DesignError(f"{option} means nothing for {quoted(self.name)}: {reason}.")
+        if self.orientation not in (None, AUTO):
+            raise DesignError(f"--orientation is {quoted(str(self.orientation))}; it can be auto.")
+        if self.orientation and self.up:
+            raise DesignError("--orientation auto chooses what --up says: give one of them.")
+
+    def _require_known_file(self) -> None:
+        known = (*PARTS, *GCODE)
+        if self.is_design and self.suffix not in ("", ".toml") and Path(self.name).is_file():
+            raise DesignError(
+                f"{quoted(self.name)} is no design and no part: its name must end in .toml, "
+                f"{', '.join(known)}."
+            )

@@ -1,0 +1,159 @@
+"""Floods through the field, from cell to neighbouring cell by their six sides.
+
+`levels` and `marks` are flat arrays of bytes, `ny` and `nx` the cells of a layer. A flood enters
+free cells only and never leaves the grid: its outermost cells must not be free.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from printers.compilation import njit
+
+FREE, CAVITY, OUTSIDE, CLOSED, SEEN = range(5)
+"""Marks of cells. CLOSED: plugs, and whatever else no path may pass."""
+
+STEP = 8
+"""Marks from here on say by which of the six steps a cell was entered."""
+
+
+@njit(cache=True, nogil=True)
+def fill(levels, marks, start, least, mark, ny, nx):  # type: ignore[no-untyped-def]
+    """Mark all free cells of at least the level `least` that are connected with the `start`.
+
+    Runs of cells along x at a time. Returns whether the outside was touched.
+    """
+    besides = np.array([nx, -nx, ny * nx, -ny * nx])
+    stack = np.empty(len(start) + 1024, dtype=np.int32)
+    stack[: len(start)] = start
+    count, touched = len(start), False
+    while count:
+        count -= 1
+        left = right = stack[count]
+        if marks[left] != FREE or levels[left] < least:
+            continue
+        while marks[left - 1] == FREE and levels[left - 1] >= least:
+            left -= 1
+        while marks[right + 1] == FREE and levels[right + 1] >= least:
+            right += 1
+        touched |= marks[left - 1] == OUTSIDE or marks[right + 1] == OUTSIDE
+        marks[left : right + 1] = mark
+        if count + 2 * (right - left) + 8 > len(stack):
+            stack = np.concatenate((stack, np.empty(len(stack) + 4 * nx, dtype=np.int32)))
+        for beside in besides:
+            within = False
+            for cell in range(left + beside, right + beside + 1):
+                touched |= marks[cell] == OUTSIDE
+                enters = marks[cell] == FREE and levels[cell] >= least
+                if enters and not within:
+                    stack[count] = cell
+                    count += 1
+                within = enters
+    return touched
+
+
+@njit(cache=True, nogil=True)
+def widest(levels, marks, ny, nx):  # type: ignore[no-untyped-def]
+    """The highest level that lets a path from the cavity reach the outside; -1 for none.
+
+    Cells that are marked as cavity or outside are there already. The front always advances where
+    the level is highest. Each level has a queue, first in, first out: a linked list in one pool.
+    """
+    steps = np.array([1, -1, nx, -nx, ny * nx, -ny * nx])
+    head = np.full(256, -1, dtype=np.int64)
+    tail = np.full(256, -1, dtype=np.int64)
+    cells = np.empty(1 << 16, dtype=np.int32)
+    after = np.empty(1 << 16, dtype=np.int32)
+    used, free = 0, -1
+    cell, level = 0, 255
+    scanning = True
+    while level >= 0:
+        if scanning:  # the rim of the cavity first, then the queues
+            while cell < len(marks) and marks[cell] != CAVITY:
+                cell += 1
+            if cell == len(marks):
+                scanning = False
+                continue
+            level = levels[cell]
+        else:
+            entry = head[level]
+            if entry < 0:
+                level -= 1
+                continue
+            cell = cells[entry]
+            head[level] = after[entry]
+            after[entry], free = free, entry
+        for step in steps:
+            beside = cell + step
+            if marks[beside] == OUTSIDE and not scanning:
+                return level
+            if marks[beside] == OUTSIDE:
+                return min(levels[cell], levels[beside])
+            if marks[beside] != FREE:
+                continue
+            marks[beside] = SEEN
+            if free >= 0:
+                entry, free = free, after[free]
+            else:
+                if used == len(cells):
+                    cells = np.concatenate((cells, np.empty_like(cells)))
+                    after = np.concatenate((after, np.empty_like(after)))
+                entry = used
+                used += 1
+            cells[entry], after[entry] = beside, -1
+            own = min(level, levels[beside])
+            if head[own] < 0:
+                head[own] = entry
+            else:
+                after[tail[own]] = entry
+            tail[own] = entry
+        if scanning:
+            cell += 1
+            level = 255
+    return -1
+
+
+@njit(cache=True, nogil=True)
+def shortest_crossing(levels, marks, least, ny, nx):  # type: ignore[no-untyped-def]
+    """Cells of a path of fewest steps from the outside to the cavity, at least `least` high.
+
+    Its ends lie in the air of either. Marks the cells it sees. Empty if there is no path.
+    """
+    steps = np.array([1, -1, nx, -nx, ny * nx, -ny * nx])
+    queue = np.empty(1 << 16, dtype=np.int32)
+    count, done = 0, 0
+    scanned = 0
+    last, found = -1, -1
+    while found < 0:
+        if scanned < len(marks):  # the rim of the cavity first, then the queue
+            cell = scanned
+            scanned += 1
+            if marks[cell] != CAVITY:
+                continue
+        elif done < count:
+            cell = queue[done]
+            done += 1
+        else:
+            break
+        for number in range(6):
+            beside = cell + steps[number]
+            if marks[beside] == OUTSIDE:
+                last, found = cell, beside
+                break
+            if marks[beside] != FREE and marks[beside] != SEEN:
+                continue
+            if levels[beside] < least:
+                continue
+            marks[beside] = STEP + number
+            if count == len(queue):
+                queue = np.concatenate((queue, np.empty_like(queue)))
+            queue[count] = beside
+            count += 1
+    path = [np.int64(found)]
+    cell = last
+    while cell >= 0:
+        path.append(np.int64(cell))
+        if marks[cell] < STEP:
+            break
+        cell -= steps[marks[cell] - STEP]
+    return np.array(path) if found >= 0 else np.zeros(0, dtype=np.int64)

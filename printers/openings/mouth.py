@@ -1,0 +1,148 @@
+"""Where a mouth is, how wide, and whether it is round: from the rim that was found."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from printers.arrays import Floats, Ints
+from printers.measure.closest_point import closest_on_segments
+from printers.measure.plugging import frame_of
+from printers.measure.surface import Surface
+from printers.model import LARGEST_LENGTH, Opening
+from printers.openings.inner_surface import Cavity, rim_of
+from printers.report import place
+from printers.tolerances import FACET_TOLERANCE, ROUNDING
+
+ENTRY = 0.5  # mm behind the rim over which a pin of the mouth's diameter must find room
+LEAST_PIN = 0.05  # mm: where less enters, something stands in the mouth, as `opening_width` says
+DIGITS = 6  # of a coordinate in mm: more are noise of single precision
+PLANE = 0.05  # mm: a rim this close to a plane is one
+
+
+@dataclass(frozen=True)
+class Mouth:
+    """A mouth of a cavity.
+
+    Attributes:
+        centre: Middle of its rim, mm.
+        direction: Unit vector out of the part.
+        radius: Of the widest pin that enters, mm.
+        reach: Radius around the axis within which the rim lies, mm.
+        area: Of the rim as seen along the axis, mm².
+        is_round: Whether the rim is a circle, within the tolerance of facets.
+        is_plane: Whether it lies in a plane; a hole in a round wall does not.
+    """
+
+    centre: tuple[float, float, float]
+    direction: tuple[float, float, float]
+    radius: float
+    reach: float
+    area: float
+    is_round: bool
+    is_plane: bool
+
+    @property
+    def diameter(self) -> float:
+        """Of the circle, or of one with the same area, mm."""
+        return 2 * self.radius if self.is_round else 2 * float(np.sqrt(self.area / np.pi))
+
+    def opening(self, name: str) -> Opening:
+        """As it is declared. Raises PrintersError if it is wider than an opening can be."""
+        reach = None if self.is_round else self.reach
+        return Opening(name, self.centre, self.direction, self.radius, reach)
+
+    def described(self) -> str:
+        """Its place and width, for people."""
+        width = f"{self.diameter:.2f} mm wide"
+        if not self.is_round:
+            width = (
+                f"not round: {2 * self.radius:.2f} to {2 * self.reach:.2f} mm wide, "
+                f"its area that of {self.diameter:.2f} mm"
+            )
+        return f"{place(self.centre)} ({width})"
+
+
+def mouths_of(surface: Surface, cavity: Cavity) -> tuple[Mouth, ...]:
+    """The mouths of a cavity, the widest first; rims that enclose nothing are none."""
+    found = (_mouth(surface, cavity, rim) for rim in cavity.rims)
+    mouths = [mouth for mouth in found if mouth is not None]
+    return tuple(sorted(mouths, key=lambda mouth: -mouth.radius))
+
+
+def _mouth(surface: Surface, cavity: Cavity, rim: Ints) -> Mouth | None:
+    start, end = rim_of(surface, cavity.triangles, rim)
+    middle = start.mean(axis=0)
+    vector = -np.cross(start - middle, end - middle).sum(axis=0) / 2  # the fan faces the cavity
+    area = float(np.linalg.norm(vector))
+    if not area > ROUNDING**2:
+        return None
+    axis = vector / area
+    frame = frame_of(Opening("", tuple(middle), tuple(axis), 1.0))
+    flat_start, flat_end = (start - middle) @ frame, (end - middle) @ frame
+    across, radius, is_round = _circle(flat_start[:, :2], flat_end[:, :2])
+    centre = middle + frame[:, :2] @ across
+    distances = np.linalg.norm(flat_start[:, :2] - across, axis=1)
+    room = _room(surface, cavity, centre, axis, frame)
+    pin = room if LEAST_PIN < room < radius - 2 * FACET_TOLERANCE else radius
+    height = float(np.ptp(flat_start[:, 2]))
+    return Mouth(
+        centre=_triple(centre),
+        direction=_triple(axis),
+        radius=_rounded(min(pin, LARGEST_LENGTH)),
+        reach=float(distances.max()),
+        area=area,
+        is_round=is_round,
+        is_plane=height <= 2 * PLANE,
+    )
+
+
+def _triple(vector: Floats) -> tuple[float, float, float]:
+    x, y, z = (_rounded(value) for value in vector)
+    return x, y, z
+
+
+def _rounded(value: float) -> float:
+    return round(float(value), DIGITS) + 0.0
+
+
+def _circle(start: Floats, end: Floats) -> tuple[Floats, float, bool]:
+    """Centre (2,) and radius of a rim's projection (k, 2), and whether it is a circle.
+
+    A circle through the corners, by least squares (Kåsa, 1976), where that is what they lie on;
+    else the middle of the area, and the radius of a pin there.
+    """
+    system = np.column_stack([2 * start, np.ones(len(start))])
+    solution = np.linalg.lstsq(system, (start**2).sum(axis=1), rcond=None)[0]
+    centre = solution[:2]
+    radius = float(np.sqrt(max(solution[2] + centre @ centre, 0.0)))
+    off = np.abs(np.linalg.norm(start - centre, axis=1) - radius)
+    if len(start) > 8 and off.max() <= FACET_TOLERANCE:
+        return centre, radius, True
+    return _middle_of_area(start, end), _pin(start, end), False
+
+
+def _middle_of_area(start: Floats, end: Floats) -> Floats:
+    cross = start[:, 0] * end[:, 1] - start[:, 1] * end[:, 0]
+    return np.asarray((cross[:, None] * (start + end)).sum(axis=0) / (3 * cross.sum()))
+
+
+def _pin(start: Floats, end: Floats) -> float:
+    """Radius of the pin that enters in the middle of the area."""
+    middle = np.broadcast_to(_middle_of_area(start, end), start.shape)
+    return float(np.linalg.norm(closest_on_segments(start, end, middle) - middle, axis=1).min())
+
+
+def _room(surface: Surface, cavity: Cavity, centre: Floats, axis: Floats, frame: Floats) -> float:
+    """Least distance, mm, of the wall right behind the rim from the axis; inf without any."""
+    corners = (surface.corners[cavity.triangles] - centre) @ frame
+    behind = corners[:, :, 2]
+    near = (behind.max(axis=1) <= ROUNDING) & (behind.min(axis=1) >= -ENTRY)
+    if not near.any():
+        return np.inf
+    sides = [(corners[near][:, i, :2], corners[near][:, (i + 1) % 3, :2]) for i in range(3)]
+    distances = [
+        np.linalg.norm(closest_on_segments(a, b, np.zeros_like(a)), axis=1).min() for a, b in sides
+    ]
+    return float(min(distances))

@@ -1,0 +1,1 @@
+"""STEP, by the CAD kernel, in a process of its own."""

@@ -1,0 +1,1 @@
+"""3MF: a ZIP archive of XML."""

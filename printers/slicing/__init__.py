@@ -1,0 +1,1 @@
+"""A printer's profile as settings of a slicer, and the slicer that makes G-code with them."""

@@ -1,0 +1,284 @@
+"""Whatever was done to an export is named, and nothing of it is trusted."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+from fakes import FakeEvaluation, fake_report
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from bellows_design import load_design
+from bellows_design.analysis.whole_actuator import Reading
+from bellows_design.design.design import Design
+from bellows_design.errors import DesignError
+from bellows_design.export.contents import part_files
+from bellows_design.export.formats import WRITERS, Part
+from bellows_design.export.manifest import MANIFEST, RUN, fingerprint
+from bellows_design.export.seal import sealed
+from bellows_design.leak_test.record import Unavailable
+from bellows_design.pipeline import run
+from bellows_design.verification.record import Verification
+from bellows_design.verification.verify import Means, verify
+from printers import RuleResult
+
+Bellows = Callable[..., tuple[int, str, str]]
+
+PATH = (Reading(0.0, 0.0, 0.0, 500.0), Reading(0.04, 250.0, 1.5, 800.0), Reading(0.1, 400, 3, 1000))
+NO_SLICER = Unavailable("there is none")
+MEANS = Means(leak_tester=NO_SLICER)
+
+
+@pytest.fixture
+def export(stub_stages: Callable[..., None], tmp_path: Path) -> Path:
+    """The export of a cube with made-up results."""
+    stub_stages(FakeEvaluation(design=load_design("finger"), path=PATH))
+    folder = run(load_design("finger"), tmp_path, leak_tester=NO_SLICER).folder
+    assert folder is not None
+    return folder
+
+
+def named(found: Verification) -> set[str]:
+    """Files that are not as written."""
+    return {file.name for file in found.files if file.state != "as written"}
+
+
+def forge(folder: Path, change: Callable[[dict[str, Any]], object]) -> None:
+    """Change the manifest and seal it again, and the file of the run as well."""
+    manifest = json.loads((folder / MANIFEST).read_text("utf-8"))
+    change(manifest)
+    del manifest["sha256"]
+    content = sealed(manifest)
+    (folder / MANIFEST).write_bytes(content)
+    run_ = json.loads((folder / RUN).read_text("utf-8"))
+    del run_["sha256"]
+    (folder / RUN).write_bytes(sealed(run_ | {"manifest": fingerprint(content)["sha256"]}))
+
+
+def test_an_export_is_verified_and_rebuilt_to_the_byte(export: Path) -> None:
+    found = verify(export, means=MEANS)
+    assert not found.problems and found.intact and found.same_bytes
+    assert found.verdict is not None and found.verdict.approved
+    assert {file.name for file in found.files} == {file.name for file in export.iterdir()}
+    assert not found.versions and not found.fields
+    assert {file.name for file in found.rebuilt} == set(os.listdir(export)) - {RUN}
+
+
+def test_a_quick_verification_says_that_nothing_was_evaluated(export: Path) -> None:
+    found = verify(export, quick=True, means=MEANS)
+    assert not found.problems and found.quick and found.verdict is not None
+    assert [rule.rule for rule in found.verdict.not_judged] == ["evaluation"]
+    assert {file.name for file in found.rebuilt} == {
+        "finger.stl", "finger.3mf", "finger.step"
+    }  # fmt: skip
+
+
+@given(data=st.data())
+@settings(
+    max_examples=60,
+    deadline=None,
+    suppress_health_check=[HealthCheck.function_scoped_fixture],
+)
+def test_a_flipped_bit_in_any_file_names_it(export: Path, data: st.DataObject) -> None:
+    name = data.draw(st.sampled_from(sorted(os.listdir(export))))
+    content = (export / name).read_bytes()
+    place = data.draw(st.integers(0, len(content) - 1))
+    flipped = bytearray(content)
+    flipped[place] ^= 1 << data.draw(st.integers(0, 7))
+    try:
+        (export / name).write_bytes(flipped)
+        found = verify(export, quick=True, means=MEANS)
+        assert named(found) == {name}
+        assert any(problem.startswith(f"{name}: changed") for problem in found.problems)
+    finally:
+        (export / name).write_bytes(content)
+
+
+@pytest.mark.parametrize("name", ["finger.stl", "finger_sheet.html", "leak_test.json", RUN])
+def test_a_missing_file_is_named(name: str, export: Path) -> None:
+    (export / name).unlink()
+    found = verify(export, quick=True, means=MEANS)
+    assert named(found) == {name} and f"{name}: missing" in found.problems
+
+
+def test_what_is_not_listed_is_named(export: Path) -> None:
+    (export / "notes.txt").write_text("mine")
+    (export / "sub").mkdir()
+    found = verify(export, quick=True, means=MEANS)
+    assert named(found) == {"notes.txt", "sub"}
+    assert found.problems == ("notes.txt: not listed", "sub: not listed")
+
+
+def test_links_and_folders_are_no_files(export: Path, tmp_path: Path) -> None:
+    (tmp_path / "elsewhere").write_bytes((export / "finger.stl").read_bytes())
+    (export / "finger.stl").unlink()
+    (export / "finger.stl").symlink_to(tmp_path / "elsewhere")
+    (export / "finger.3mf").unlink()
+    (export / "finger.3mf").mkdir()
+    found = verify(export, quick=True, means=MEANS)
+    states = {file.name: file.state for file in found.files}
+    assert states["finger.stl"] == states["finger.3mf"] == "no file"
+
+
+def test_names_that_lead_out_are_not_opened(export: Path, tmp_path: Path) -> None:
+    (tmp_path / "secret").write_text("secret")
+    outside = {"../secret": fingerprint(b"secret"), "/etc/passwd": {}, "a\0b": {}}
+    forge(export, lambda manifest: manifest["files"].update(outside))
+    found = verify(export, quick=True, means=MEANS)
+    led_out = [file for file in found.files if "leads out" in file.why]
+    assert len(led_out) == 3 and len(named(found)) == 3
+
+
+def test_another_part_with_true_hashes_is_not_the_part(export: Path, cube_part: Part) -> None:
+    """Whoever changes a file may change the manifest, too; the design tells."""
+    import cadquery as cq
+
+    from bellows_design.geometry.tessellation import tessellate
+
+    solid = cq.Solid.makeBox(10, 10, 10.5)
+    other = replace(cube_part, name="finger", solid=solid, mesh=tessellate(solid))
+    files = part_files(other)
+    for name, content in files.items():
+        (export / name).write_bytes(content)
+    prints = {name: fingerprint(content) for name, content in files.items()}
+    forge(export, lambda manifest: manifest["files"].update(prints))
+    found = verify(export, quick=True, means=MEANS)
+    assert not named(found)
+    assert {file.name for file in found.rebuilt if file.difference} == set(files)
+    assert sum("not the part" in problem for problem in found.problems) == 3
+
+
+def test_a_forged_figure_is_named(export: Path) -> None:
+    forge(export, lambda manifest: manifest["evaluation"].update(max_von_mises_mpa=1.0))
+    found = verify(export, means=MEANS)
+    assert [(each.name, each.then, each.now) for each in found.fields] == [
+        ("evaluation.max_von_mises_mpa", 1.0, 3.0)
+    ]
+    assert found.problems == (f"{MANIFEST}: the same versions do not write it so",)
+
+
+def test_other_versions_are_told_and_no_problem_by_themselves(export: Path) -> None:
+    forge(export, lambda manifest: manifest["evaluation"]["versions"].update(numpy="0.0.1"))
+    found = verify(export, means=MEANS)
+    assert [(each.name, each.then) for each in found.versions] == [("numpy", "0.0.1")]
+    assert not found.same_bytes and not found.problems
+
+
+def test_an_extra_file_that_a_forged_manifest_lists_is_named(export: Path) -> None:
+    (export / "virus.exe").write_bytes(b"x")
+    forge(export, lambda manifest: manifest["files"].update({"virus.exe": fingerprint(b"x")}))
+    assert verify(export, means=MEANS).problems[-1].startswith("virus.exe: the same versions")
+
+
+def test_a_design_that_would_be_refused_now_is_no_success(
+    export: Path, stub_stages: Callable[..., None]
+) -> None:
+    failed = RuleResult("minimum_lines", "fail", 2, 3, "lines", "wall", "Too thin.")
+    stub_stages(FakeEvaluation(design=load_design("finger"), path=PATH), fake_report(failed))
+    for quick in (False, True):
+        found = verify(export, quick, MEANS)
+        assert found.problems[-1] == "this version would refuse the design: minimum_lines"
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        (lambda design: design["bellows"].update(length=-1), "length"),
+        (lambda design: design.update(printer="../../secret.toml"), "is a file"),
+        (lambda design: design["load"].update(pressure=0.05), "digest"),
+        (lambda design: design.clear(), "name"),
+    ],
+)
+def test_a_design_that_cannot_be_rebuilt_is_told(
+    change: Callable[[dict[str, Any]], object], words: str, export: Path
+) -> None:
+    forge(export, lambda manifest: change(manifest["design"]))
+    found = verify(export, means=MEANS)
+    assert words in found.failure and found.verdict is None
+    assert any("cannot be rebuilt" in problem for problem in found.problems)
+
+
+def test_a_printer_that_is_unknown_here_is_told(export: Path) -> None:
+    def change(manifest: dict[str, Any]) -> None:
+        manifest["design"]["printer"] = "no_such_printer"
+        manifest["digest"] = Design.of(manifest["design"]).digest
+
+    forge(export, change)
+    assert "no_such_printer" in verify(export, means=MEANS).failure
+
+
+def test_an_export_of_an_earlier_version_is_told(export: Path) -> None:
+    manifest = json.loads((export / MANIFEST).read_text("utf-8"))
+    del manifest["sha256"]
+    manifest["format"] = "bellows-design manifest 1"
+    (export / MANIFEST).write_text(json.dumps(manifest))
+    assert "earlier version" in verify(export, means=MEANS).problems[0]
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        b"",
+        b"[" * 100_000,
+        b'{"a": NaN}',
+        b'{"a": 1' + b"0" * 100_000 + b"}",
+        b"\xff\xfe",
+        b'{"format": "bellows-design manifest 2", "files": {}}',
+    ],
+    ids=["empty", "deep", "NaN", "huge number", "no text", "no seal"],
+)
+def test_a_manifest_that_is_none_is_named(content: bytes, export: Path) -> None:
+    (export / MANIFEST).write_bytes(content)
+    assert named(verify(export, means=MEANS)) == {MANIFEST}
+
+
+@pytest.mark.parametrize(
+    "content",
+    [{"files": {}}, {"format": "bellows-design manifest 2"}, {"format": [], "files": 1}],
+)
+def test_a_sealed_file_that_is_no_manifest_is_bad_input(
+    content: dict[str, Any], tmp_path: Path
+) -> None:
+    (tmp_path / MANIFEST).write_bytes(sealed(content))
+    with pytest.raises(DesignError, match="manifest"):
+        verify(tmp_path, means=MEANS)
+
+
+def test_prints_of_any_kind_are_no_hashes(export: Path) -> None:
+    prints = {"finger.stl": None, "finger.3mf": {"sha256": 1, "bytes": 10**30}, "finger.step": []}
+    forge(export, lambda manifest: manifest["files"].update(prints))
+    assert named(verify(export, quick=True, means=MEANS)) == set(prints)
+
+
+def test_a_file_longer_than_listed_is_not_read(
+    export: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    os.truncate(export / "finger.stl", 10**12)  # sparse: takes no room
+    assert named(verify(export, quick=True, means=MEANS)) == {"finger.stl"}
+
+
+def test_the_commands_status_says_whether_an_export_is_good(
+    export: Path, bellows: Bellows, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setenv("BELLOWS_SLICER", "")
+    status, out, _ = bellows("verify", str(export), "--quick")
+    assert status == 0 and "VERIFIED" in out and "evaluation and leak test were left out" in out
+    (export / "finger.step").write_bytes(b"ISO-10303-21;")
+    status, out, _ = bellows("verify", str(export), "--quick", "--json")
+    content = json.loads(out)
+    assert status == 1 and not content["verified"] and len(content["problems"]) == 1
+    (tmp_path / "file").touch()
+    for nothing in (tmp_path / "nowhere", tmp_path, tmp_path / "file"):
+        status, out, err = bellows("verify", str(nothing))
+        assert status == 2 and out == "" and err.count("\n") == 1
+
+
+def test_a_verification_needs_no_suffix_it_does_not_know(export: Path) -> None:
+    assert set(WRITERS) == {".stl", ".3mf", ".step"}
+    assert not [file for file in verify(export, means=MEANS).rebuilt if file.difference]

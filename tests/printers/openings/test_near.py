@@ -1,0 +1,57 @@
+"""Openings that are named by a point."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from small_solids import arrays, block, bore, hollow_box
+
+from printers.errors import PrintersError
+from printers.measure.surface import Surface, merged_surface
+from printers.openings.find import FoundOpenings, find_mouths
+from printers.openings.near import named_opening
+
+PART = merged_surface(*arrays(hollow_box() - bore(1.0, (10.0, 5.2, 5.2), 8.0)))
+
+
+def named(*numbers: float, surface: Surface = PART) -> FoundOpenings:
+    x, y, z, *rest = numbers
+    point = (x, y, z, rest[0] if rest else None)
+    return named_opening(surface, find_mouths(surface), point, "opening")
+
+
+@pytest.mark.parametrize(("x", "centre"), [(-0.5, 0.0), (1.0, 0.0), (13.0, 14.4)])
+def test_a_point_names_the_nearest_mouth(x: float, centre: float) -> None:
+    found = named(x, 5.0, 5.2)
+    (opening,) = found.openings
+    np.testing.assert_allclose(opening.centre, (centre, 5.2, 5.2), atol=1e-5)
+    assert opening.radius == pytest.approx(1.0)
+    assert f"{np.hypot(x - centre, 0.2):.2f} mm from the point" in found.notes[0]
+
+
+def test_a_diameter_that_is_given_counts() -> None:
+    (opening,) = named(0.0, 5.2, 5.2, 1.6).openings
+    assert opening.radius == 0.8 and opening.reach == pytest.approx(1.0)  # the plug still closes it
+    (opening,) = named(0.0, 5.2, 5.2, 3.0).openings
+    assert opening.radius == 1.5 and opening.reach is None
+
+
+def test_where_no_mouth_is_one_is_declared_along_the_normal() -> None:
+    found = named(7.0, 5.0, 10.4, 2.0)
+    (opening,) = found.openings
+    assert opening.centre == (7.0, 5.0, 10.4) and opening.radius == 1.0
+    np.testing.assert_allclose(opening.direction, (0, 0, 1), atol=1e-12)
+    assert "no mouth was found" in found.notes[0]
+
+
+def test_without_a_mouth_or_a_diameter_the_nearest_mouth_is_told() -> None:
+    with pytest.raises(PrintersError, match=r"no mouth .* nearest is .* \(0\.0, 5\.2, 5\.2\) mm"):
+        named(6.0, 5.0, 10.4)
+    solid = merged_surface(*arrays(block((9, 9, 9), (0, 0, 0))))
+    with pytest.raises(PrintersError, match="no mouth was found"):
+        named(0.0, 5.0, 5.0, surface=solid)
+
+
+def test_a_point_far_from_the_part_is_refused() -> None:
+    with pytest.raises(PrintersError, match="too far"):
+        named(0.0, 0.0, 50.0, 2.0)
