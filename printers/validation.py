@@ -38,6 +38,8 @@ def _sentence(problem: Mapping[str, Any], record: type[BaseModel]) -> str:
         return f"{key}: {text}" if key else text
     given = problem["input"]
     expected = _KINDS.get(problem["type"], f"{text[0].lower()}{text[1:]}")
+    if problem["type"] == "literal_error":
+        expected = f"it must be {problem['ctx']['expected']}"
     unit = _unit(problem, record)
     if isinstance(given, int | float) and not isinstance(given, bool):
         return f"{key} is {_shown(given)}{unit}; {expected}"
@@ -52,6 +54,8 @@ _KINDS = {
     "bool_type": "it must be true or false",
     "string_type": "it must be text",
     "tuple_type": "it must be a list",
+    "dict_type": "it must be a table of keys and values",
+    "model_type": "it must be a table of keys and values",
 }
 
 

@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from printers.measure.part import MeasuredPart
 from printers.measure.passage.air_passage import LEAST_VOLUME
 from printers.report import RuleResult, at_least, place
+from printers.tolerances import FACET_TOLERANCE
+
+TOLERANCE = 2 * FACET_TOLERANCE  # mm: the facets of either wall
 
 
 def check_air_passage(part: MeasuredPart) -> Iterator[RuleResult]:
@@ -22,10 +26,10 @@ def check_air_passage(part: MeasuredPart) -> Iterator[RuleResult]:
         yield RuleResult("air_passage", "pass", "none", needed, "mm", "cavity", message)
         return
     width, where = narrowest.width, place(narrowest.place)
-    unsure = round(narrowest.uncertainty, 3)
-    stays = width >= needed - unsure
+    stays = width >= needed - TOLERANCE
     message = (
         f"the narrowest passage that air takes to {LEAST_VOLUME:g} mm³ or more, {width:.2f} mm at "
         f"{where}, {'stays open' if stays else 'closes'} (at least {needed:g} mm)"
     )
-    yield at_least("air_passage", width, needed, unsure, where, message)
+    result = at_least("air_passage", width, needed, TOLERANCE, where, message)
+    yield replace(result, uncertainty=round(narrowest.uncertainty, 3))

@@ -106,3 +106,15 @@ def port_rules(built: Design, mesh: object, wall: float) -> list:  # type: ignor
     )
     found = check_printability(replace(model, walls=walls), load_profile("prusa_i3"))
     return [r for r in found.rules if (r.rule, r.where) == ("wall_as_declared", "port.wall")]
+
+
+@pytest.mark.parametrize("name", ["finger", "prototype_2", "prototype_2_indent"])
+def test_a_shipped_design_raises_no_alarm(name: str) -> None:
+    """Prototype 1 has walls of 3.75 lines, which its paper says itself."""
+    design = load_design(name)
+    solid = printed_part(design.bellows, design.indent, design.port).solid
+    found = check_printability(printed_model(design, tessellate(solid)), design.profile())
+    assert found.verdict == "pass", [rule.message for rule in found.failures]
+    assert {warning.rule for warning in found.warnings} == {"overhang"}
+    margins = {r.rule: r.margin for r in found.rules if r.margin is not None and r.margin < 0}
+    assert set(margins) <= {"minimum_lines", "thinnest_place", "opening_width"}

@@ -9,7 +9,7 @@ import numpy as np
 
 from printers.arrays import Flags, Floats, Ints
 from printers.compilation import njit
-from printers.measure.box_tree import DEEPEST_TREE, BoxTree
+from printers.measure.box_tree import BoxTree
 
 OPPOSITE = float(np.cos(np.radians(30.0)))
 """A ball lies between two faces that open by less than 30 degrees: seen from its centre, they lie
@@ -19,6 +19,7 @@ TOWARDS = float(np.cos(np.radians(60.0)))
 """So much must a face look against the first one, so that a ball may touch it, or an edge of it:
 the edge of two walls at a right angle is 45 degrees off from straight across."""
 
+DEEPEST_TREE = 64
 _MOST_STEPS = 32
 _STEADY = 1e-6  # of a diameter: a ball that shrinks by less has found its place
 

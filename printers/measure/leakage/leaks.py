@@ -23,7 +23,7 @@ from printers.model import Opening
 SOURCE, DRAIN = 0, 1  # nodes of the graph: what is certainly inside, and outside
 RIM_STEP = 0.2  # mm
 UNITS_PER_MILLIMETRE = 1000  # the maximum flow counts in whole micrometres
-OUT_IN_THE_OPEN = 3  # escaping rays: a leak may let a few out of a cavity
+OUT_IN_THE_OPEN = 18  # escaping rays: more than from the wall of a hole, half of which is covered
 
 
 @dataclass(frozen=True)

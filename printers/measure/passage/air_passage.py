@@ -40,6 +40,12 @@ MOST_POINTS = 4_000_000
 LEAST_VOLUME = 5.0
 """mm³. A part of the cavity that holds less may be as narrow as it likes."""
 
+FEWEST_POINTS = 64
+"""Of a part of the cavity that counts, where the steps are long."""
+
+MOST_PASSES = 40
+"""That are measured closely: more than a part has bubbles."""
+
 REFINEMENT = 4
 """A grid's step over that of the next finer one."""
 
@@ -116,7 +122,7 @@ def narrowest_passage(
     grid = _grid_of(air)
     within = air.within(grid)
     marks = np.where(air.bores(grid), FIRST, 0)
-    least = int(LEAST_VOLUME / grid.step**3)
+    least = max(FEWEST_POINTS, int(LEAST_VOLUME / grid.step**3))
     field, floor = coarse_distances(within, grid.step), 0.0
     if _in_pieces(within, marks, least):  # which are joined by less than a step
         field, floor = air.exact(grid), -THICKEST_SKIN
@@ -159,7 +165,8 @@ def _grid_of(air: _Air) -> Grid:
 def _narrowest(air: _Air, grid: Grid, field: Floats, found: Ints, wide: float) -> AirPassage | None:
     """The narrowest of the passes, measured closely where it may be narrower than `wide`."""
     best: AirPassage | None = None
-    for number in found[np.argsort(field.ravel()[found], kind="stable")]:
+    lowest = found[np.argsort(field.ravel()[found], kind="stable")]
+    for number in lowest[:MOST_PASSES]:
         rough = _rough(grid, field, int(number))
         at_least = rough.width - rough.uncertainty
         if best is not None and at_least >= best.width:

@@ -56,7 +56,7 @@ def inside(surface: Surface, grid: Grid) -> Flags:
 
 
 def coarse_distances(within: Flags, step: float) -> Floats:
-    """Distance, mm, of the points `within` the air to the wall, within a step; others have 0."""
+    """Distance, mm, of the points `within` the air to the wall, within a step; others have -inf."""
     from scipy.ndimage import distance_transform_edt
 
-    return np.where(within, distance_transform_edt(within) * step - step / 2, 0.0)
+    return np.where(within, distance_transform_edt(within) * step - step / 2, -np.inf)

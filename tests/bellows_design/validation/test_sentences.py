@@ -12,7 +12,7 @@ import pytest
 from bellows_design.design import load_design, with_overrides
 from bellows_design.design.overrides import known_keys
 from bellows_design.errors import DesignError
-from printers import PrinterProfile, PrintersError, SlicerAdvice
+from printers import Filament, PrinterProfile, PrintersError, SlicerAdvice, profile_from_table
 
 VALUES = ("none", "true", "nan", "-inf", '"8 cm"', '"1,2"', "[]", "{}", "1e400", "9" * 400, "''")
 PYTHON_WORDS = re.compile(r"\b(None|True|False|NoneType|none (mm|MPa|%)|true (mm|MPa|%))\b")
@@ -44,7 +44,7 @@ def test_every_key_that_cannot_be_none_says_so() -> None:
 BAD = (None, True, "3", "3,5", "8 cm", float("nan"), float("inf"), 10**400, [], {}, -1)
 
 
-@pytest.mark.parametrize("record", [PrinterProfile, SlicerAdvice])
+@pytest.mark.parametrize("record", [PrinterProfile, SlicerAdvice, Filament])
 def test_numbers_of_a_printer_take_neither_text_nor_true(record: Any) -> None:
     table = tomllib.loads((files("printers") / "profiles/prusa_i3.toml").read_text("utf-8"))
     for key, field in record.model_fields.items():
@@ -53,10 +53,12 @@ def test_numbers_of_a_printer_take_neither_text_nor_true(record: Any) -> None:
                 continue
             if field.annotation is bool and bad is True:
                 continue
-            changed = table | {"slicer": dict(table["slicer"])}
-            (changed if record is PrinterProfile else changed["slicer"])[key] = bad
+            soft = {"extends": "ninjaflex_85a", "name": "soft"}
+            changed = table | {"slicer": dict(table["slicer"]), "filament": soft}
+            tables = {PrinterProfile: changed, SlicerAdvice: changed["slicer"], Filament: soft}
+            tables[record][key] = bad
             with pytest.raises(PrintersError) as caught:
-                PrinterProfile(**changed)
+                profile_from_table(changed)
             told = str(caught.value)
             assert key in told and "\n" not in told and not PYTHON_WORDS.search(told)
 
@@ -64,11 +66,11 @@ def test_numbers_of_a_printer_take_neither_text_nor_true(record: Any) -> None:
 def test_true_for_a_count_and_text_for_a_length_of_a_printer_are_refused() -> None:
     table = tomllib.loads((files("printers") / "profiles/prusa_i3.toml").read_text("utf-8"))
     with pytest.raises(PrintersError, match="perimeters is true; it must be a whole number"):
-        PrinterProfile(**table | {"slicer": table["slicer"] | {"perimeters": True}})
+        profile_from_table(table | {"slicer": table["slicer"] | {"perimeters": True}})
     with pytest.raises(PrintersError, match=r"line_width is '0,4'.*write 0.4, not 0,4"):
-        PrinterProfile(**table | {"line_width": "0,4"})
+        profile_from_table(table | {"line_width": "0,4"})
     with pytest.raises(PrintersError, match=r"build_volume\.1 is '210'; it must be a number"):
-        PrinterProfile(**table | {"build_volume": [250, "210", 210]})
+        profile_from_table(table | {"build_volume": [250, "210", 210]})
 
 
 @pytest.mark.parametrize(

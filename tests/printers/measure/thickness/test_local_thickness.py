@@ -24,10 +24,12 @@ def test_thickness_of_analytic_shells_is_within_two_percent_or_a_facet(
     shell: str, thickness: float
 ) -> None:
     found = measured(merged_surface(*SHELLS[shell](thickness, 160)))
-    thin = np.isfinite(found.thickness)
+    # Where the box's floor and roof meet its walls, the ball at the sharp edge inside is larger.
+    height = found.samples.points[:, 2]
+    between = (height > height.min() + thickness) & (height < height.max() - thickness)
+    thin = np.isfinite(found.thickness) & between
     error = np.abs(found.thickness[thin] - thickness)
-    # The rims of the tube and the bottom edges of the box are no walls; all else is measured.
-    assert thin.mean() > 0.8
+    assert thin[between].mean() > 0.95
     assert np.quantile(error, 0.99) <= max(0.02, 0.02 * thickness)
 
 
