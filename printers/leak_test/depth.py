@@ -6,7 +6,7 @@ make that number one to judge by:
 
 - Voids. Where infill ends at a perimeter, narrow voids remain in any sound part: a path along them
   crosses little plastic, though each is closed by the next layer. So depth is measured twice, with
-  every void open, and over voids narrower than 0.3 lines, as if melt had closed them. The first
+  every void open, and over voids narrower than two thirds of a line, as if melt had closed them. The first
   tells parts whose voids join up, the second walls that are too thin.
 - Direction. A profile asks for more plastic in a standing wall than in a floor. Heights count so
   many times that `minimum_solid_layers` layers are worth `minimum_lines` lines.
@@ -37,7 +37,7 @@ FULL = 16
 
 FARTHEST = 65_000
 
-CLOSED_VOID = 1.3
+CLOSED_VOID = 1.66
 """F up to which a void counts as closed by melt."""
 
 

@@ -74,8 +74,8 @@ def ratio_of(level: Any) -> Any:
 
 
 def level_of(ratio: float) -> int:
-    """The level of an F up to `COARSE_FROM`."""
-    return round(ratio * painting.FINE)
+    """The lowest level of at least an F."""
+    return int(np.searchsorted(ratio_of(np.arange(256)), ratio - 1e-9))
 
 
 def grid_for(beads: Beads, voxel: float | None, line_width: float) -> tuple[float, list[str]]:

@@ -10,9 +10,9 @@ from __future__ import annotations
 
 from printers.profile import PrinterProfile
 
-LINES_MISSING = 0.85
-LAYERS_MISSING = 1.4
-LINES_LACKING = 0.6
+LINES_MISSING = 0.75
+LAYERS_MISSING = 1.75
+LINES_LACKING = 0.5
 """From here on a wall warns."""
 
 LEAST_BESIDE_VOIDS = 0.25

@@ -82,7 +82,9 @@ def _printed_depth(depth: Depth, profile: PrinterProfile) -> RuleResult:
         f"the thinnest seal, at {where}, is {depth.lines:.2f} lines or {depth.millimetres:.2f} mm "
         f"of plastic deep; less than {least:g} lines fail, less than {ample:g} warn"
     )
-    if not thin and depth.lines_beside_voids < LEAST_BESIDE_VOIDS:
+    if depth.lines == 0:
+        message = "nothing seals the cavity: air passes between the beads"
+    elif not thin and depth.lines_beside_voids < LEAST_BESIDE_VOIDS:
         verdict = "fail"
         message = (
             f"voids between the beads join up through the wall: beside them only "
