@@ -13,15 +13,12 @@ from math import ceil, sqrt
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from printers.arrays import Floats, Ints
 from printers.errors import PrintersError
 from printers.gcode.beads import Beads
 from printers.leak_test import painting
-from printers.leak_test.painting import COLUMNS, paint_layer
-
-Levels = NDArray[np.uint8]
+from printers.leak_test.painting import COLUMNS, Levels, paint_layer
 
 CELLS_A_LINE = 8
 FEWEST_CELLS_A_LINE = 3

@@ -13,9 +13,9 @@ import numpy as np
 
 from printers.arrays import Floats, Ints
 from printers.errors import PrintersError
-from printers.leak_test.field import Field, Levels
+from printers.leak_test.field import Field
 from printers.leak_test.flood import CLOSED, OUTSIDE
-from printers.leak_test.painting import AIR
+from printers.leak_test.painting import AIR, Levels
 from printers.model import Opening
 from printers.report import place
 

@@ -11,11 +11,11 @@ from printers.arrays import Floats, Ints
 from printers.errors import PrintersError
 from printers.gcode.beads import Beads
 from printers.leak_test.depth import CLOSED_VOID, thinnest_seal
-from printers.leak_test.field import Field, Levels, grid_for, level_of, paint, ratio_of
+from printers.leak_test.field import Field, grid_for, level_of, paint, ratio_of
 from printers.leak_test.flood import CAVITY, CLOSED, OUTSIDE
 from printers.leak_test.frames import Transform, matrix_of, moved
 from printers.leak_test.limits import stretch_of_heights
-from printers.leak_test.painting import AIR
+from printers.leak_test.painting import AIR, Levels
 from printers.leak_test.result import (
     SURELY_OPEN,
     SURELY_SEALED,
