@@ -141,6 +141,8 @@ def _depth(
     if not path.is_open:
         beside = thinnest_seal(field, path.marks, AIR, stretch).length / width
     middle = _place(moved(to_part, seal.middle[None])[0]) if len(seal.points) else None
+    if path.is_open and leaks:
+        middle = leaks[0].place
     return Depth(seal.length / width, seal.millimetres, beside, middle), seal.points
 
 

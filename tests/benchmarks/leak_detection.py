@@ -204,7 +204,7 @@ def main(arguments: list[str]) -> None:
     for name in CASES:
         if asked and not any(word in name for word in asked):
             continue
-        if name not in rows or again:
+        if again or "error" in rows.get(name, {"error": ""}):
             rows[name] = _in_process(name)
             ordered = {key: rows[key] for key in CASES if key in rows}
             RESULTS.write_text(json.dumps(ordered, indent=1, ensure_ascii=False) + "\n")
