@@ -9,7 +9,7 @@ make that number one to judge by:
   every void open, and over voids narrower than two thirds of a line, as if melt had closed them.
   The first tells parts whose voids join up, the second walls that are too thin.
 - Direction. A profile asks for more plastic in a standing wall than in a floor. Heights count so
-  many times that floors and walls fail at the same depth (`limits.py`).
+  many times that floors and walls fail at the same depth (`rules.py`).
 - Cells. The path is found on cells of a quarter of a line, each with the share of plastic in it.
   Steps go to all 26 neighbours; the length of a slanting path, up to 13 % too long that way, is
   corrected to that of the straight way between both ends of every wall it crosses.

@@ -14,7 +14,6 @@ from printers.leak_test.depth import CLOSED_VOID, thinnest_seal
 from printers.leak_test.field import Field, grid_for, level_of, paint, ratio_of
 from printers.leak_test.flood import CAVITY, CLOSED, OUTSIDE
 from printers.leak_test.frames import Transform, matrix_of, moved
-from printers.leak_test.limits import stretch_of_heights
 from printers.leak_test.painting import AIR, Levels
 from printers.leak_test.result import (
     SURELY_OPEN,
@@ -27,7 +26,7 @@ from printers.leak_test.result import (
     Place,
     leak_verdict,
 )
-from printers.leak_test.rules import leak_rules
+from printers.leak_test.rules import leak_rules, stretch_of_heights
 from printers.leak_test.seams import seam_tolerance
 from printers.leak_test.widest_path import WidestPath, air, crossing, narrowest, widest_path
 from printers.model import Opening
