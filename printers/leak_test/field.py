@@ -22,8 +22,8 @@ from printers.leak_test.painting import COLUMNS, Levels, paint_layer
 
 CELLS_A_LINE = 8
 FEWEST_CELLS_A_LINE = 3
-MOST_CELLS = 500_000_000
-"""With a byte of marks beside each and the fronts of the floods this stays below 1.5 GB."""
+MOST_CELLS = 300_000_000
+"""With marks, the coarser cells of the depth and the fronts of the floods they take 1.5 GB."""
 
 SAME_HEIGHT = 0.02
 """mm. Beads that begin or end so near each other do so at the same height."""
