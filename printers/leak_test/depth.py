@@ -4,12 +4,12 @@ A wall that is closed but too thin has no leak, and still little that keeps it c
 the length of the shortest path of which only what lies within beads counts, in lines. Three things
 make that number one to judge by:
 
-- Voids. Where infill ends at a perimeter, narrow voids remain in any sound part: a path along them
+- Voids. Where infill ends at a perimeter, voids remain in any sound part: a path along them
   crosses little plastic, though each is closed by the next layer. So depth is measured twice, with
-  every void open, and over voids narrower than 0.3 lines, as if melt had closed them. The first
-  tells parts whose voids join up, the second walls that are too thin.
+  every void open, and over voids narrower than two thirds of a line, as if melt had closed them.
+  The first tells parts whose voids join up, the second walls that are too thin.
 - Direction. A profile asks for more plastic in a standing wall than in a floor. Heights count so
-  many times that `minimum_solid_layers` layers are worth `minimum_lines` lines.
+  many times that floors and walls fail at the same depth (`rules.py`).
 - Cells. The path is found on cells of a quarter of a line, each with the share of plastic in it.
   Steps go to all 26 neighbours; the length of a slanting path, up to 13 % too long that way, is
   corrected to that of the straight way between both ends of every wall it crosses.
@@ -21,12 +21,13 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from printers.arrays import Flags, Floats, Ints
 from printers.compilation import njit
-from printers.leak_test.field import Field, Levels, ratio_of
+from printers.leak_test.field import Field, ratio_of
 from printers.leak_test.flood import CAVITY, CLOSED, OUTSIDE
-from printers.leak_test.painting import AIR
+from printers.leak_test.painting import AIR, Levels
 
 CELLS_A_LINE = 4
 UNITS = 10
@@ -37,7 +38,7 @@ FULL = 16
 
 FARTHEST = 65_000
 
-CLOSED_VOID = 1.3
+CLOSED_VOID = 1.66
 """F up to which a void counts as closed by melt."""
 
 
@@ -95,7 +96,7 @@ def _plastic_of_levels(sharpness: float) -> Levels:
 
 
 @njit(cache=True, nogil=True)
-def _plastic(levels, air, b, a, plastic):  # type: ignore[no-untyped-def]
+def _plastic(levels: Levels, air: NDArray[np.int16], b: int, a: int, plastic: Levels) -> int:
     """Plastic in a cell: part of it if it is air or beside air, else all."""
     side = air[b, a] > 0
     for row, column in ((b - 1, a), (b + 1, a), (b, a - 1), (b, a + 1)):
@@ -105,11 +106,13 @@ def _plastic(levels, air, b, a, plastic):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True, nogil=True)
-def _pooled(levels, marks, factor, plastic, open_from, steps):  # type: ignore[no-untyped-def]
+def _pooled(
+    levels: Levels, marks: Levels, factor: int, plastic: Levels, open_from: int, steps: int
+) -> tuple[Levels, Levels]:
     """Share of plastic and mark of cells of `factor` x `factor` finer ones.
 
-    A cell has the mark that half of them have. Air are the cells from the level `open_from` on, and those beyond the beads' sides that are
-    `steps` from one; other voids are closed.
+    A cell has the mark that half of them have. Air are the cells from the level `open_from` on, and
+    those beyond the beads' sides that are `steps` from one; other voids are closed.
     """
     nz, ny, nx = levels.shape
     shape = nz, (ny + factor - 1) // factor, (nx + factor - 1) // factor
@@ -150,7 +153,7 @@ def _pooled(levels, marks, factor, plastic, open_from, steps):  # type: ignore[n
 
 
 @njit(cache=True, nogil=True)
-def _least_plastic(share, ends, thickness, ny, nx):  # type: ignore[no-untyped-def]
+def _least_plastic(share: Levels, ends: Levels, thickness: Floats, ny: int, nx: int) -> Ints:
     """Cells of the path of least plastic, from the outside to the cavity; empty if there is none.
 
     Dijkstra's algorithm with whole costs in a ring of buckets. `thickness` of the layers in sides

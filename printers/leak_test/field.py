@@ -13,20 +13,17 @@ from math import ceil, sqrt
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from printers.arrays import Floats, Ints
 from printers.errors import PrintersError
 from printers.gcode.beads import Beads
 from printers.leak_test import painting
-from printers.leak_test.painting import COLUMNS, paint_layer
-
-Levels = NDArray[np.uint8]
+from printers.leak_test.painting import COLUMNS, Levels, paint_layer
 
 CELLS_A_LINE = 8
 FEWEST_CELLS_A_LINE = 3
-MOST_CELLS = 500_000_000
-"""With a byte of marks beside each and the fronts of the floods this stays below 1.5 GB."""
+MOST_CELLS = 300_000_000
+"""With marks, the coarser cells of the depth and the fronts of the floods they take 1.5 GB."""
 
 SAME_HEIGHT = 0.02
 """mm. Beads that begin or end so near each other do so at the same height."""
@@ -74,8 +71,8 @@ def ratio_of(level: Any) -> Any:
 
 
 def level_of(ratio: float) -> int:
-    """The level of an F up to `COARSE_FROM`."""
-    return round(ratio * painting.FINE)
+    """The lowest level of at least an F."""
+    return int(np.searchsorted(ratio_of(np.arange(256)), ratio - 1e-9))
 
 
 def grid_for(beads: Beads, voxel: float | None, line_width: float) -> tuple[float, list[str]]:

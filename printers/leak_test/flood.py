@@ -8,7 +8,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from printers.arrays import Ints
 from printers.compilation import njit
+from printers.leak_test.painting import Levels
 
 FREE, CAVITY, OUTSIDE, CLOSED, SEEN = range(5)
 """Marks of cells. CLOSED: plugs, and whatever else no path may pass."""
@@ -18,7 +20,9 @@ STEP = 8
 
 
 @njit(cache=True, nogil=True)
-def fill(levels, marks, start, least, mark, ny, nx):  # type: ignore[no-untyped-def]
+def fill(
+    levels: Levels, marks: Levels, start: Ints, least: int, mark: int, ny: int, nx: int
+) -> bool:
     """Mark all free cells of at least the level `least` that are connected with the `start`.
 
     Runs of cells along x at a time. Returns whether the outside was touched.
@@ -53,7 +57,7 @@ def fill(levels, marks, start, least, mark, ny, nx):  # type: ignore[no-untyped-
 
 
 @njit(cache=True, nogil=True)
-def widest(levels, marks, ny, nx):  # type: ignore[no-untyped-def]
+def widest(levels: Levels, marks: Levels, ny: int, nx: int) -> int:
     """The highest level that lets a path from the cavity reach the outside; -1 for none.
 
     Cells that are marked as cavity or outside are there already. The front always advances where
@@ -114,7 +118,7 @@ def widest(levels, marks, ny, nx):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True, nogil=True)
-def shortest_crossing(levels, marks, least, ny, nx):  # type: ignore[no-untyped-def]
+def shortest_crossing(levels: Levels, marks: Levels, least: int, ny: int, nx: int) -> Ints:
     """Cells of a path of fewest steps from the outside to the cavity, at least `least` high.
 
     Its ends lie in the air of either. Marks the cells it sees. Empty if there is no path.

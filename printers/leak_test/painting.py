@@ -21,8 +21,13 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from numpy.typing import NDArray
 
+from printers.arrays import Floats
 from printers.compilation import njit
+
+Grid = NDArray[np.float32]
+Levels = NDArray[np.uint8]
 
 PAINTED = 1.6
 """F up to which cells are computed from beads; beyond, distances are summed from cell to cell."""
@@ -54,7 +59,7 @@ AIR = 125
 
 
 @njit(cache=True, nogil=True)
-def _scaled(bead, x, y):  # type: ignore[no-untyped-def]
+def _scaled(bead: Floats, x: float, y: float) -> tuple[float, float, float]:
     """F and its gradient times half the width at (x, y)."""
     half, tx, ty = bead[HALF], bead[TX], bead[TY]
     rx, ry = x - bead[AX], y - bead[AY]
@@ -85,7 +90,7 @@ def _scaled(bead, x, y):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True, nogil=True)
-def _rows(bead, y0, voxel, reach, ny):  # type: ignore[no-untyped-def]
+def _rows(bead: Floats, y0: float, voxel: float, reach: float, ny: int) -> tuple[int, int]:
     """First and last row of cells within reach of a bead."""
     ay, by = bead[AY], bead[AY] + bead[LENGTH] * bead[TY]
     first = math.ceil((min(ay, by) - reach - y0) / voxel)
@@ -94,7 +99,9 @@ def _rows(bead, y0, voxel, reach, ny):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True, nogil=True)
-def _columns(bead, y, x0, voxel, reach, nx):  # type: ignore[no-untyped-def]
+def _columns(
+    bead: Floats, y: float, x0: float, voxel: float, reach: float, nx: int
+) -> tuple[int, int]:
     """First and last cell of a row within reach of the piece of the axis that is near the row."""
     length, tx, ty = bead[LENGTH], bead[TX], bead[TY]
     low, high = 0.0, length
@@ -108,7 +115,16 @@ def _columns(bead, y, x0, voxel, reach, nx):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True, nogil=True)
-def _paint_nearest(table, x0, y0, voxel, nearest, gx, gy, slope):  # type: ignore[no-untyped-def]
+def _paint_nearest(
+    table: Floats,
+    x0: float,
+    y0: float,
+    voxel: float,
+    nearest: Grid,
+    gx: Grid,
+    gy: Grid,
+    slope: Grid,
+) -> None:
     ny, nx = nearest.shape
     for b in range(len(table)):
         bead = table[b]
@@ -127,7 +143,17 @@ def _paint_nearest(table, x0, y0, voxel, nearest, gx, gy, slope):  # type: ignor
 
 
 @njit(cache=True, nogil=True)
-def _find_ridges(table, x0, y0, voxel, nearest, gx, gy, slope, rise):  # type: ignore[no-untyped-def]
+def _find_ridges(
+    table: Floats,
+    x0: float,
+    y0: float,
+    voxel: float,
+    nearest: Grid,
+    gx: Grid,
+    gy: Grid,
+    slope: Grid,
+    rise: Grid,
+) -> None:
     """`rise`: way, mm, from a cell's centre until a bead on the other side is as near."""
     ny, nx = nearest.shape
     for b in range(len(table)):
@@ -150,7 +176,7 @@ def _find_ridges(table, x0, y0, voxel, nearest, gx, gy, slope, rise):  # type: i
 
 
 @njit(cache=True, nogil=True)
-def _spread(nearest, step):  # type: ignore[no-untyped-def]
+def _spread(nearest: Grid, step: float) -> None:
     """Distances beyond what is painted, by two sweeps from cell to cell."""
     ny, nx = nearest.shape
     slant = step * math.sqrt(2.0)
@@ -181,7 +207,9 @@ def _spread(nearest, step):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True, nogil=True)
-def _to_levels(nearest, gx, gy, slope, rise, voxel, levels):  # type: ignore[no-untyped-def]
+def _to_levels(
+    nearest: Grid, gx: Grid, gy: Grid, slope: Grid, rise: Grid, voxel: float, levels: Levels
+) -> None:
     ny, nx = nearest.shape
     for j in range(ny):
         for i in range(nx):
@@ -197,7 +225,9 @@ def _to_levels(nearest, gx, gy, slope, rise, voxel, levels):  # type: ignore[no-
 
 
 @njit(cache=True, nogil=True)
-def paint_layer(table, x0, y0, voxel, step, scratch, levels):  # type: ignore[no-untyped-def]
+def paint_layer(
+    table: Floats, x0: float, y0: float, voxel: float, step: float, scratch: Grid, levels: Levels
+) -> None:
     """Write the levels (ny, nx) of one layer from its beads (n, 10).
 
     `x0`, `y0` is the centre of the first cell; `step` the F of a cell's side beyond the painted

@@ -71,20 +71,25 @@ def _draw(axes: Any, view: LayerView) -> None:
     from matplotlib.lines import Line2D
     from matplotlib.patches import Patch
 
-    handles = [_draw_air(axes, view)]
+    handles: list[Any] = _draw_air(axes, view)
     outlines, kinds = _outlines(view), np.array(KIND_NAMES)[view.beads.kind]
     for name in dict.fromkeys(kinds.tolist()):
         colour = BEAD_COLOURS.get(name, "#cccccc")
         chosen = [outline for outline, kind in zip(outlines, kinds, strict=True) if kind == name]
-        shape = {"facecolors": colour, "edgecolors": "#333333", "linewidths": 0.3, "alpha": 0.75}
+        shape: dict[str, Any] = {
+            "facecolors": colour,
+            "edgecolors": "#333333",
+            "linewidths": 0.3,
+            "alpha": 0.75,
+        }
         axes.add_collection(PolyCollection(chosen, **shape))
-        handles.append([Patch(color=colour, label=name)])
+        handles.append(Patch(color=colour, label=name))
     path = moved(view.to_part, view.path)
     axes.plot(path[:, 0], path[:, 1], color="#c00000", linewidth=2)
     (x, y, _) = moved(view.to_part, np.asarray(view.place)[None])[0]
     axes.plot([x], [y], "o", markersize=16, markeredgecolor="#c00000", markerfacecolor="none")
-    handles.append([Line2D([], [], color="#c00000", label="path and its place")])
-    axes.legend(handles=[one for some in handles for one in some], loc="upper right", fontsize=8)
+    handles.append(Line2D([], [], color="#c00000", label="path and its place"))
+    axes.legend(handles=handles, loc="upper right", fontsize=8)
     reach = _reach(view)
     axes.set_xlim(x - reach, x + reach)
     axes.set_ylim(y - reach, y + reach)

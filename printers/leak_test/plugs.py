@@ -13,16 +13,16 @@ import numpy as np
 
 from printers.arrays import Floats, Ints
 from printers.errors import PrintersError
-from printers.leak_test.field import Field, Levels
+from printers.leak_test.field import Field
 from printers.leak_test.flood import CLOSED, OUTSIDE
-from printers.leak_test.painting import AIR
+from printers.leak_test.painting import AIR, Levels
 from printers.model import Opening
 from printers.report import place
 
 DEEPEST_IN_LINES = 5.0
 """A plug is at least this deep: more lines than `printed_depth` asks for."""
 
-SURROUNDED = 0.5
+SURROUNDED = 0.3
 """Share of a ring around the mouth that must be beads for the opening to be one."""
 
 
@@ -98,7 +98,7 @@ def _require_surrounded(field: Field, opening: Opening) -> None:
     """Beads lie around the mouth, one line behind it."""
     beads = cells = 0
     for layer, window, along, beside in _around(field, opening):
-        ring = np.abs(beside - opening.radius - field.line_width) <= field.line_width / 2
+        ring = np.abs(beside - opening.radius - field.line_width / 2) <= field.line_width / 2
         ring &= np.abs(along + 1.5 * field.line_width) <= field.line_width / 2
         beads += int((field.levels[layer][window][ring] < AIR).sum())
         cells += int(ring.sum())

@@ -46,8 +46,8 @@ class Depth:
     """The thinnest seal: the least plastic that a path from the cavity to the outside crosses.
 
     Attributes:
-        lines: Of the profile's width, over voids narrower than 0.3 lines as if they were closed.
-            Heights are stretched so that floors and walls can be held against one limit.
+        lines: Of the profile's width, over voids narrower than two thirds of a line as if they were
+            closed. Heights are stretched so that floors and walls are held against one limit.
         millimetres: Of plastic on that path, heights as they are.
         lines_beside_voids: Likewise in lines, but every void is open; 0 where a leak is.
         place: Middle of what is crossed; None where the cavity is open.

@@ -1,16 +1,15 @@
-"""The results of the leak test as rules of the printability check."""
+"""The results of the leak test as rules of the printability check, and what they are held against.
+
+The profile says how many lines side by side and how many layers seal. A wall that misses a whole
+line of them fails, one that misses half a line warns; a floor fails where it misses two layers.
+Measured depths scatter by 0.15 lines about the wall's thickness, so the bounds lie off whole
+numbers by more than that: a wall of two lines does not pass for one of three.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from printers.leak_test.limits import (
-    LEAST_BESIDE_VOIDS,
-    LEAST_SEAM_LOSS,
-    MATERIAL_BAND,
-    ample_lines,
-    least_lines,
-)
 from printers.leak_test.result import (
     SURELY_OPEN,
     SURELY_SEALED,
@@ -23,11 +22,42 @@ from printers.leak_test.result import (
 from printers.profile import PrinterProfile
 from printers.report import RuleResult, Verdict, place
 
+LINES_MISSING = 0.75
+LAYERS_MISSING = 1.75
+LINES_LACKING = 0.5
+"""From here on a wall warns."""
+
+LEAST_BESIDE_VOIDS = 0.25
+"""Lines. Parts whose voids join up have none; sound ones have half a line and more."""
+
+LEAST_SEAM_LOSS = 0.25
+"""Lines."""
+
+MATERIAL_BAND = 0.05
+"""Share by which the plastic may differ from what the solid asks for."""
+
 SCATTER = 0.03
 """Of r*, by the grid's cells and the part's turn."""
 
 DEPTH_SCATTER = 0.15
 """Lines."""
+
+
+def least_lines(profile: PrinterProfile) -> float:
+    """Depth in lines below which a part fails; half of the profile's lines at least."""
+    return max(profile.minimum_lines - LINES_MISSING, profile.minimum_lines / 2)
+
+
+def ample_lines(profile: PrinterProfile) -> float:
+    """Depth in lines below which a part warns."""
+    return max(profile.minimum_lines - LINES_LACKING, least_lines(profile))
+
+
+def stretch_of_heights(profile: PrinterProfile) -> float:
+    """How many times heights count, so that floors and walls fail at the same depth."""
+    layers = profile.minimum_solid_layers
+    least_floor = max(layers - LAYERS_MISSING, layers / 2) * profile.layer_height
+    return least_lines(profile) * profile.line_width / least_floor
 
 
 def leak_rules(
@@ -82,7 +112,9 @@ def _printed_depth(depth: Depth, profile: PrinterProfile) -> RuleResult:
         f"the thinnest seal, at {where}, is {depth.lines:.2f} lines or {depth.millimetres:.2f} mm "
         f"of plastic deep; less than {least:g} lines fail, less than {ample:g} warn"
     )
-    if not thin and depth.lines_beside_voids < LEAST_BESIDE_VOIDS:
+    if depth.lines == 0:
+        message = "nothing seals the cavity: air passes between the beads"
+    elif not thin and depth.lines_beside_voids < LEAST_BESIDE_VOIDS:
         verdict = "fail"
         message = (
             f"voids between the beads join up through the wall: beside them only "

@@ -11,11 +11,10 @@ from printers.arrays import Floats, Ints
 from printers.errors import PrintersError
 from printers.gcode.beads import Beads
 from printers.leak_test.depth import CLOSED_VOID, thinnest_seal
-from printers.leak_test.field import Field, Levels, grid_for, level_of, paint, ratio_of
+from printers.leak_test.field import Field, grid_for, level_of, paint, ratio_of
 from printers.leak_test.flood import CAVITY, CLOSED, OUTSIDE
 from printers.leak_test.frames import Transform, matrix_of, moved
-from printers.leak_test.limits import stretch_of_heights
-from printers.leak_test.painting import AIR
+from printers.leak_test.painting import AIR, Levels
 from printers.leak_test.result import (
     SURELY_OPEN,
     SURELY_SEALED,
@@ -27,7 +26,7 @@ from printers.leak_test.result import (
     Place,
     leak_verdict,
 )
-from printers.leak_test.rules import leak_rules
+from printers.leak_test.rules import leak_rules, stretch_of_heights
 from printers.leak_test.seams import seam_tolerance
 from printers.leak_test.widest_path import WidestPath, air, crossing, narrowest, widest_path
 from printers.model import Opening
@@ -141,6 +140,8 @@ def _depth(
     if not path.is_open:
         beside = thinnest_seal(field, path.marks, AIR, stretch).length / width
     middle = _place(moved(to_part, seal.middle[None])[0]) if len(seal.points) else None
+    if path.is_open and leaks:
+        middle = leaks[0].place
     return Depth(seal.length / width, seal.millimetres, beside, middle), seal.points
 
 

@@ -12,9 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from printers.arrays import Floats, Ints
-from printers.leak_test.field import Field, Levels, ratio_of
+from printers.leak_test.field import Field, ratio_of
 from printers.leak_test.flood import CAVITY, OUTSIDE, fill, shortest_crossing, widest
-from printers.leak_test.painting import AIR
+from printers.leak_test.painting import AIR, Levels
 from printers.leak_test.plugs import cavity_start, fresh_marks
 from printers.model import Opening
 

@@ -24,7 +24,7 @@ def seal(box: Box, stretch: float = 1.0, open_from: int = AIR, voxel: float = 0.
 @pytest.mark.parametrize("angle", [0.0, 17.0, 45.0])
 def test_walls_are_as_deep_as_their_lines(lines: int, angle: float) -> None:
     box = Box(lines=lines, floor=12, angle=angle)
-    assert seal(box).millimetres == pytest.approx(box.wall_thickness, abs=0.05)
+    assert seal(box).millimetres == pytest.approx(box.wall_thickness, abs=0.06)
 
 
 def test_a_floor_is_as_deep_as_its_layers() -> None:
@@ -62,5 +62,6 @@ def test_only_narrow_voids_count_as_closed(gap: float) -> None:
 
 
 def test_coarser_cells_find_the_same_depth() -> None:
+    """Within a quarter of the coarser cells' four to a line."""
     fine, coarse = (seal(Box(), voxel=voxel).length for voxel in (0.05, 0.1))
-    assert coarse == pytest.approx(fine, abs=0.06)
+    assert coarse == pytest.approx(fine, abs=0.12)

@@ -21,7 +21,7 @@ def profile() -> PrinterProfile:
     return plain.model_copy(update={"layer_height": 0.2, "minimum_solid_layers": 4})
 
 
-def tested(box: Box, profile: PrinterProfile, **options: object) -> LeakTest:
+def result_of(box: Box, profile: PrinterProfile, **options: object) -> LeakTest:
     return leak_test(box.beads, [box.opening], profile, **{"seams": False, **options})  # type: ignore[arg-type]
 
 
@@ -31,7 +31,7 @@ def verdicts(test: LeakTest) -> dict[str, str]:
 
 def test_a_sound_box_is_sealed(profile: PrinterProfile) -> None:
     box = Box()
-    test = tested(box, profile, seams=True, solid_volume=box.volume / 1.1)
+    test = result_of(box, profile, seams=True, solid_volume=box.volume / 1.1)
     assert test.verdict == "sealed"
     assert test.leaks == () and test.width == 0
     assert test.margin == pytest.approx(0.04, abs=0.01)
@@ -42,12 +42,12 @@ def test_a_sound_box_is_sealed(profile: PrinterProfile) -> None:
 
 
 def test_its_rules_stand_in_the_table(profile: PrinterProfile) -> None:
-    names = {rule.rule for rule in tested(Box(), profile, solid_volume=1.0, seams=True).rules}
+    names = {rule.rule for rule in result_of(Box(), profile, solid_volume=1.0, seams=True).rules}
     assert names <= set(RULES)
 
 
 def test_a_leak_fails_with_its_width_and_place(profile: PrinterProfile) -> None:
-    test = tested(Box(wall=with_gap(0.2, lambda z, number: 2.3 < z < 2.5)), profile)
+    test = result_of(Box(wall=with_gap(0.2, lambda z, number: 2.3 < z < 2.5)), profile)
     assert test.verdict == "leaks"
     assert test.width == pytest.approx(0.2 / WIDTH * 0.4, abs=0.02)
     assert test.depth.lines == 0 and test.seams is None
@@ -57,7 +57,7 @@ def test_a_leak_fails_with_its_width_and_place(profile: PrinterProfile) -> None:
 
 
 def test_beads_that_only_touch_are_marginal(profile: PrinterProfile) -> None:
-    test = tested(Box(wall=with_gap(0.0)), profile)
+    test = result_of(Box(wall=with_gap(0.0)), profile)
     assert test.verdict == "marginal"
     assert verdicts(test)["leak_path"] == "warn"
     assert len(test.leaks) == 1 and abs(test.leaks[0].place[1]) < 0.1
@@ -66,12 +66,12 @@ def test_beads_that_only_touch_are_marginal(profile: PrinterProfile) -> None:
 def test_two_leaks_are_both_told(profile: PrinterProfile) -> None:
     heights = (2.3, 4.3)
     rule = lambda z, number: any(abs(z - at - 0.1) < 0.05 for at in heights)  # noqa: E731
-    test = tested(Box(wall=with_gap(0.2, rule)), profile)
+    test = result_of(Box(wall=with_gap(0.2, rule)), profile)
     assert sorted(round(leak.place[2], 1) for leak in test.leaks) == list(heights)
 
 
 def test_a_wall_of_two_lines_is_too_thin_where_three_are_asked_for(profile: PrinterProfile) -> None:
-    test = tested(Box(lines=2), profile)
+    test = result_of(Box(lines=2), profile)
     assert test.verdict == "sealed"
     assert verdicts(test)["printed_depth"] == "fail"
     assert test.depth.lines == pytest.approx(Box(lines=2).wall_thickness / 0.4, abs=0.15)
@@ -80,7 +80,7 @@ def test_a_wall_of_two_lines_is_too_thin_where_three_are_asked_for(profile: Prin
 @pytest.mark.parametrize("share", [0.9, 1.1])
 def test_too_little_or_too_much_plastic_warns(profile: PrinterProfile, share: float) -> None:
     box = Box()
-    test = tested(box, profile, solid_volume=box.volume / 1.1 / share)
+    test = result_of(box, profile, solid_volume=box.volume / 1.1 / share)
     assert verdicts(test)["printed_material"] == "warn"
     assert test.material.share == pytest.approx(share)
 
@@ -94,9 +94,9 @@ def test_places_are_in_the_parts_coordinates(profile: PrinterProfile) -> None:
     matrix = np.eye(4)
     matrix[:3, :3], matrix[:3, 3] = back, (100.0, 50.0, 7.0)
     shift = matrix[:3, 3]
-    plain = np.array(tested(box, profile).leaks[0].place)
+    plain = np.array(result_of(box, profile).leaks[0].place)
     for transform in (matrix, (back, shift), lambda points: points @ back.T + shift):
-        told = tested(turned, profile, transform=transform).leaks[0].place
+        told = result_of(turned, profile, transform=transform).leaks[0].place
         assert np.abs(np.array(told) - plain - shift).max() < 0.5
         assert abs(told[1] - 50.0) < 0.1
 
@@ -114,21 +114,21 @@ def test_skirts_close_nothing(profile: PrinterProfile) -> None:
 
 
 def test_the_result_is_plain_json(profile: PrinterProfile) -> None:
-    record = tested(Box(), profile, seams=True).to_dict()
+    record = result_of(Box(), profile, seams=True).to_dict()
     assert json.loads(json.dumps(record))["verdict"] == "sealed"
     assert "view" not in record and record["margin"] > 0
 
 
 def test_the_same_beads_give_the_same_result(profile: PrinterProfile) -> None:
     box = Box(wall=with_gap(0.2), angle=17.0)
-    assert tested(box, profile).to_dict() == tested(box, profile).to_dict()
+    assert result_of(box, profile).to_dict() == result_of(box, profile).to_dict()
 
 
 def test_a_large_part_is_tested_on_coarser_cells_and_says_so(
     profile: PrinterProfile, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(field, "MOST_CELLS", 300_000)
-    test = tested(Box(), profile)
+    test = result_of(Box(), profile)
     assert 0.05 < test.voxel < 0.4 / 3
     assert test.verdict == "sealed"
     assert "cells of" in test.notes[0]
@@ -139,13 +139,13 @@ def test_a_part_too_large_for_any_grid_is_refused(
 ) -> None:
     monkeypatch.setattr(field, "MOST_CELLS", 10_000)
     with pytest.raises(PrintersError, match="too large for the leak test"):
-        tested(Box(), profile)
+        result_of(Box(), profile)
 
 
 @pytest.mark.parametrize("voxel", [0.0, -0.05, 0.2, float("nan")])
 def test_cells_must_tell_lines_apart(profile: PrinterProfile, voxel: float) -> None:
     with pytest.raises(PrintersError, match="voxel is"):
-        tested(Box(), profile, voxel=voxel)
+        result_of(Box(), profile, voxel=voxel)
 
 
 def test_without_an_opening_or_beads_there_is_nothing_to_test(profile: PrinterProfile) -> None:
@@ -160,7 +160,7 @@ def test_without_an_opening_or_beads_there_is_nothing_to_test(profile: PrinterPr
 @pytest.mark.parametrize("transform", [np.eye(3), 2 * np.eye(4), np.full((4, 4), np.nan)])
 def test_a_transform_must_be_a_rigid_motion(profile: PrinterProfile, transform: np.ndarray) -> None:
     with pytest.raises(PrintersError, match="transform"):
-        tested(Box(), profile, transform=transform)
+        result_of(Box(), profile, transform=transform)
 
 
 def test_a_second_mouth_is_plugged_too(profile: PrinterProfile) -> None:
