@@ -23,7 +23,7 @@ from printers.leak_test.painting import COLUMNS, Levels, link_layers, paint_laye
 CELLS_A_LINE = 8
 FEWEST_CELLS_A_LINE = 3
 MOST_CELLS = 300_000_000
-"""With marks, the coarser cells of the depth and the fronts of the floods they take 1.5 GB."""
+"""With marks, the coarser cells of the depth and the fronts of the floods they take 1.8 GB."""
 
 SAME_HEIGHT = 0.02
 """mm. Beads that begin or end so near each other do so at the same height."""

@@ -28,6 +28,12 @@ def _width(levels: Levels, links: Levels, cell: int, layer: int) -> int:
 
 
 @njit(cache=True, nogil=True)
+def _holds(levels: Levels, links: Levels, cell: int, layer: int, least: int) -> bool:
+    """Whether there is at least a level within a cell."""
+    return levels[cell] >= least or links[cell] >= least or links[cell - layer] >= least
+
+
+@njit(cache=True, nogil=True)
 def fill(
     levels: Levels,
     links: Levels,
@@ -49,11 +55,11 @@ def fill(
     while count:
         count -= 1
         left = right = stack[count]
-        if marks[left] != FREE or _width(levels, links, left, layer) < least:
+        if marks[left] != FREE or not _holds(levels, links, left, layer, least):
             continue
-        while marks[left - 1] == FREE and _width(levels, links, left - 1, layer) >= least:
+        while marks[left - 1] == FREE and _holds(levels, links, left - 1, layer, least):
             left -= 1
-        while marks[right + 1] == FREE and _width(levels, links, right + 1, layer) >= least:
+        while marks[right + 1] == FREE and _holds(levels, links, right + 1, layer, least):
             right += 1
         touched |= marks[left - 1] == OUTSIDE or marks[right + 1] == OUTSIDE
         marks[left : right + 1] = mark
@@ -66,7 +72,7 @@ def fill(
                 if enters and abs(beside) == layer:
                     enters = links[min(cell, cell - beside)] >= least
                 elif marks[cell] == FREE:
-                    enters = _width(levels, links, cell, layer) >= least
+                    enters = _holds(levels, links, cell, layer, least)
                 touched |= enters and marks[cell] == OUTSIDE
                 enters &= marks[cell] == FREE
                 if enters and not within:
@@ -182,7 +188,7 @@ def shortest_crossing(
                 break
             if marks[beside] != FREE and marks[beside] != SEEN:
                 continue
-            if number < 4 and _width(levels, links, beside, layer) < least:
+            if number < 4 and not _holds(levels, links, beside, layer, least):
                 continue
             marks[beside] = STEP + number
             if count == len(queue):

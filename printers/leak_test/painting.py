@@ -37,7 +37,7 @@ Levels = NDArray[np.uint8]
 PAINTED = 1.6
 """F up to which cells are computed from beads; beyond, distances are summed from cell to cell."""
 
-SHALLOWEST = 0.7
+SHALLOWEST = 0.75
 """F below which no ridge is looked for: beads that overlap so much have nothing between them."""
 
 WITHIN = 0.75
@@ -190,6 +190,8 @@ def _find_ridges(
                     size = math.sqrt(gx[j, i] ** 2 + gy[j, i] ** 2)
                     way = (f - nearest[j, i]) / (size - facing / size)
                     rise[j, i] = min(rise[j, i], max(way, 0.0))
+                if f - voxel / 2 * (abs(ux) + abs(uy)) >= most[j, i]:
+                    continue
                 summit = _below_two(nearest[j, i], gx[j, i], gy[j, i], f, ux, uy, voxel / 2)
                 if summit < most[j, i]:
                     other[j, i], ox[j, i], oy[j, i], most[j, i] = f, ux, uy, summit
@@ -297,10 +299,11 @@ def _lowest(bounds: Floats, count: int, x: float, y: float, least: float) -> flo
 
 
 @njit(cache=True, nogil=True)
-def _summit(bounds: Floats, count: int) -> float:
+def _summit(bounds: Floats, count: int, most: float) -> float:
     """The highest point of the cell's [-1/2, 1/2]² below all planes: a linear programme.
 
-    It lies at a corner, or on a side where two planes meet, or where three meet.
+    It lies at a corner, or on a side where two planes meet, or where three meet. No point lies
+    above `most`.
     """
     best = -np.inf
     for end in (-0.5, 0.5):
@@ -308,6 +311,8 @@ def _summit(bounds: Floats, count: int) -> float:
         best = _lowest(bounds, count, end, 0.5, best)
     for m in range(count):
         for n in range(m):
+            if best >= most - 0.5 / FINE:
+                return best
             f = bounds[m, 0] - bounds[n, 0]
             a, b = bounds[m, 1] - bounds[n, 1], bounds[m, 2] - bounds[n, 2]
             for end in (-0.5, 0.5):
@@ -326,6 +331,15 @@ def _summit(bounds: Floats, count: int) -> float:
 
 
 @njit(cache=True, nogil=True)
+def _alike(below: Grid, above: Grid, j: int, i: int) -> bool:
+    """Whether two layers have the same planes in a cell."""
+    for p in range(6):  # noqa: SIM110
+        if below[p, j, i] != above[p, j, i]:
+            return False
+    return True
+
+
+@njit(cache=True, nogil=True)
 def link_layers(
     below: Grid, above: Grid, voxel: float, low: Levels, high: Levels, links: Levels
 ) -> None:
@@ -339,7 +353,7 @@ def link_layers(
     for j in range(ny):
         for i in range(nx):
             most = min(below[6, j, i], above[6, j, i])
-            if most < SHALLOWEST:
+            if most < SHALLOWEST or _alike(below, above, j, i):
                 links[j, i] = _level(most)
                 continue
             if most > PAINTED + 1:
@@ -350,4 +364,4 @@ def link_layers(
                 for p in (0, 3):
                     f, x, y = planes[p, j, i], planes[p + 1, j, i], planes[p + 2, j, i]
                     count = _add(bounds, count, f, voxel * x, voxel * y)
-            links[j, i] = _level(_summit(bounds, count))
+            links[j, i] = _level(_summit(bounds, count, most))
