@@ -111,8 +111,9 @@ def _pooled(
 ) -> tuple[Levels, Levels]:
     """Share of plastic and mark of cells of `factor` x `factor` finer ones.
 
-    A cell has the mark that half of them have. Air are the cells from the level `open_from` on, and
-    those beyond the beads' sides that are `steps` from one; other voids are closed.
+    A cell has the mark that half of them have, by their middles. Air are the cells from the level
+    `open_from` on, and those beyond the beads' sides that are `steps` from one; other voids are
+    closed.
     """
     nz, ny, nx = levels.shape
     shape = nz, (ny + factor - 1) // factor, (nx + factor - 1) // factor
@@ -139,8 +140,9 @@ def _pooled(
                         total += _plastic(levels[k], air, b, a, plastic)
                         count += 1
                         own = marks[k, b, a]
-                        cavity += own == CAVITY
-                        outside += own == OUTSIDE
+                        reaches = levels[k, b, a] >= open_from
+                        cavity += own == CAVITY and reaches
+                        outside += own == OUTSIDE and reaches
                         plug += own == CLOSED
                 share[k, j, i] = int(total / count + 0.5)
                 if plug:
