@@ -56,11 +56,11 @@ def check_bed_contact(part: MeasuredPart) -> Iterator[RuleResult]:
     surface, share = part.surface, part.profile.minimum_bed_contact
     area = float(-surface.area_vectors[part.on_bed, 2].sum())
     footprint = float(np.prod(np.ptp(surface.bounds[:, :2], axis=0)))
-    required = share * footprint
-    stands = area >= required * (1 - EXACT)
+    required, lies = share * footprint, area / footprint if footprint else 0.0
+    stands = area > 0 and area >= required * (1 - EXACT)
     message = (
         f"{area:.1f} mm² lie on the bed at z = {surface.bounds[0, 2]:.2f} mm, "
-        f"{area / footprint:.0%} of the footprint; "
+        f"{lies:.0%} of the footprint; "
         f"at least {share:.0%} {'do' if stands else 'must'}"
     )
     contact = surface.corners[part.on_bed]

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from printers import PrinterProfile, RuleResult, check_printability
+from printers import PrintedModel, PrinterProfile, RuleResult, check_printability
 
 
 def thinnest(
@@ -94,3 +94,25 @@ def test_the_walls_of_a_cavity_that_leaks_are_judged_all_the_same(
         lines = thinnest(solids, leaking, prusa, openings=(solids.port_of(wall=wall),))
         assert lines["minimum_lines"].verdict == verdict
         assert lines["minimum_lines"].measured == wall
+
+
+@pytest.mark.parametrize("gap", [0.0, 1e-9, 1e-4, 0.01])
+@pytest.mark.parametrize("rule", ["minimum_layers", "minimum_lines"])
+def test_a_cavity_that_touches_the_outside_has_no_thickness(
+    solids: SimpleNamespace, prusa: PrinterProfile, rule: str, gap: float
+) -> None:
+    """The cavity reaches up to the plane of the roof, or of the side, within rounding or more."""
+    inner, hole = (12.0, 8.0, 8.0), (1.2, 1.2, 1.2)
+    outer = (13.2 + gap, 10.4, 10.4) if rule == "minimum_lines" else (14.4, 10.4, 9.2 + gap)
+    vertices, triangles = solids.arrays(solids.block(outer, (0, 0, 0)))
+    cavity, inwards = solids.arrays(solids.block(inner, hole))
+    both = np.concatenate([triangles, inwards[:, ::-1] + len(vertices)])
+    part = PrintedModel(np.concatenate([vertices, cavity]), both)
+    report = check_printability(part, prusa)
+    results = {r.rule: r for r in report.rules if r.rule.startswith("minimum_")}
+    assert results[rule].verdict == "fail"
+    assert results[rule].measured == pytest.approx(gap, abs=1e-3)
+    needed = prusa.minimum_wall if rule == "minimum_lines" else prusa.minimum_floor
+    assert results[rule].required == pytest.approx(needed)
+    (other,) = {"minimum_layers", "minimum_lines"} - {rule}
+    assert results[other].verdict == "pass"
