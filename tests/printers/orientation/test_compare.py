@@ -88,7 +88,7 @@ def test_there_are_never_many(prusa: PrinterProfile) -> None:
 
 def test_of_a_round_part_only_the_faces_that_may_carry_it_are_looked_at() -> None:
     """Looking at each of thousands would take a time that grows with their square."""
-    dome = Manifold.sphere(8.0, 160).translate((0, 0, 2)) ^ block((20, 20, 20), (-10, -10, 0))
+    dome = Manifold.sphere(8.0, 200).translate((0, 0, 2)) ^ block((20, 20, 20), (-10, -10, 0))
     vertices, triangles = arrays(dome)
     assert len(triangles) > 10_000
     assert [turning.name for turning in onto_faces(vertices)] == ["Z"]
