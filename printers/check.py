@@ -81,7 +81,8 @@ def check_printability(model: PrintedModel, profile: PrinterProfile) -> Printabi
     part = MeasuredPart(model, profile)
     if not part.surface.areas.sum() > 0:
         raise PrintersError("the mesh has no triangle with an area")
-    results = (_completed(result, profile) for result in _results(part))
+    mouths = [opening.centre for opening in model.openings]
+    results = (_completed(result, profile).at(*result.points, *mouths) for result in _results(part))
     return PrintabilityReport(profile.name, tuple(results))
 
 

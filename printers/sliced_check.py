@@ -13,7 +13,7 @@ from printers.leak_test.result import LeakTest
 from printers.leak_test.run import leak_test
 from printers.measure.surface import merged_surface
 from printers.model import Opening, PrintedModel
-from printers.orientation.turning import Turning, turned
+from printers.orientation.turning import Turning, place_in_file, turned
 from printers.profile import PrinterProfile
 from printers.slicing.finding import Slicer
 from printers.slicing.making import Sliced, slice_mesh
@@ -74,7 +74,7 @@ def check_sliced(
     )
     openings = [_on_bed(opening, sliced.placement) for opening in standing.openings]
     volume = merged_surface(standing.vertices, standing.triangles).volume()
-    back = _to_file(sliced.placement, turning)
+    back = _to_file(sliced.placement, model, turning)
     leaks = leak_test(sliced.gcode.beads, openings, profile, solid_volume=volume, transform=back)
     return SlicedCheck(sliced, leaks)
 
@@ -96,9 +96,10 @@ def _on_bed(opening: Opening, placement: Placement) -> Opening:
     return replace(opening, centre=tuple(start), direction=(x, y, z))
 
 
-def _to_file(placement: Placement, turning: Turning) -> Floats:
+def _to_file(placement: Placement, model: PrintedModel, turning: Turning) -> Floats:
     """(4, 4): from the frame of the G-code to that of the part's file."""
-    corners = placement.to_part(np.vstack([np.zeros(3), np.eye(3)])) @ turning.matrix
+    standing = placement.to_part(np.vstack([np.zeros(3), np.eye(3)]))
+    corners = place_in_file(standing, model, turning)
     matrix = np.eye(4)
     matrix[:3, :3] = (corners[1:] - corners[0]).T
     matrix[:3, 3] = corners[0]

@@ -96,7 +96,8 @@ def _leak_path(ratio: float, leaks: tuple[Leak, ...], line_width: float) -> Rule
         )
     measured, required = round(ratio, 3), SURELY_SEALED
     unit = "of a bead's half width"
-    return RuleResult("leak_path", weight, measured, required, unit, where, message, SCATTER)
+    result = RuleResult("leak_path", weight, measured, required, unit, where, message, SCATTER)
+    return result.at(*(leak.place for leak in leaks))
 
 
 def _width(leak: Leak) -> str:
@@ -124,7 +125,7 @@ def _printed_depth(depth: Depth, profile: PrinterProfile) -> RuleResult:
     measured, required = round(depth.lines, 2), round(least, 2)
     return RuleResult(
         "printed_depth", verdict, measured, required, "lines", where, message, DEPTH_SCATTER
-    )
+    ).at(*([depth.place] if depth.place else []))
 
 
 def _seam_loss(seams: SeamTolerance, profile: PrinterProfile) -> RuleResult:

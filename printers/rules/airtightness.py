@@ -7,7 +7,7 @@ per opening it closes; that counts the openings exactly, even two under one plug
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from printers.measure.leakage.leaks import Leak
@@ -33,7 +33,14 @@ def check_airtightness(part: MeasuredPart) -> Iterator[RuleResult]:
     required = f"1 cavity, {max(count, 1)} opening{'s' if count > 1 else ''}"
     yield RuleResult(
         "airtightness", found.verdict, found.found, required, "", found.where, found.message
-    )
+    ).at(*_places(part))
+
+
+def _places(part: MeasuredPart) -> Iterator[Iterable[float]]:
+    """That a diagnosis may name, beside the openings: sealed cavities and leaks."""
+    sealed = part.sealing.part
+    yield from (sealed.middle(shell) for shell in sealed.voids)
+    yield from (leak.centre for leak in (part.opened.leaks if part.opened is not None else ()))
 
 
 def _diagnose(sealing: Sealing) -> Diagnosis:

@@ -84,4 +84,4 @@ def _judge(rule: str, thinnest: Thinnest | None, has_cavity: bool, made_of: str)
         f"{'has' if enough else 'has less than'} the {made_of} that seal, {required:.3f} mm "
         f"that way: {against(thickness, required, tolerance)}{scope}"
     )
-    return at_least(rule, thickness, required, tolerance, where, message)
+    return at_least(rule, thickness, required, tolerance, where, message).at(thinnest.point)

@@ -66,7 +66,7 @@ def _standing(subject: Subject, up: Turning, progress: Progress) -> _Judged:
 
     progress.stage("check")
     report = check_printability(turned(subject.model, up), subject.profile)
-    return _Judged(in_file(report, up), up)
+    return _Judged(in_file(report, subject.model, up), up)
 
 
 def _best(subject: Subject, _: Turning, progress: Progress) -> _Judged:
