@@ -14,7 +14,6 @@ from printers.measure.part import MeasuredPart
 from printers.model import PrintedModel
 from printers.profile import PrinterProfile
 from printers.report import PrintabilityReport, RuleResult
-from printers.rule_table import RULES
 from printers.rules.airtightness import check_airtightness
 from printers.rules.envelope import check_bed_contact, check_build_volume, check_cross_section
 from printers.rules.gaps import check_declared_gaps, check_measured_gaps
@@ -95,12 +94,8 @@ def _completed(result: RuleResult, profile: PrinterProfile) -> RuleResult:
     decided = result.verdict == "fail" or (
         result.verdict == "warn" and result.rule in profile.rules
     )
-    return replace(
-        result,
-        verdict=severity if decided else result.verdict,
-        severity=severity,
-        source=RULES[result.rule].source,
-    )
+    stated = result.stated(severity)
+    return replace(stated, verdict=severity) if decided else stated
 
 
 def _results(part: MeasuredPart) -> Iterator[RuleResult]:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import asdict, dataclass, replace
 from typing import Any, Literal
 
-from printers.rule_table import Severity
+from printers.rule_table import RULES, Severity
 
 Verdict = Literal["pass", "info", "warn", "fail"]
 
@@ -39,8 +39,8 @@ class RuleResult:
             rule has no such allowance.
         margin: How far `measured` lies on the good side of `required`, in `unit`; it is negative
             in a result that passes within its tolerance. None where either is no number.
-        severity: What it means on this printer not to keep the rule; None until the whole check
-            has said so.
+        severity: What it means on this printer not to keep the rule; None until it is
+            stated.
         source: Where the rule and its limit come from.
         points: The places that `where` and `message` name as `place` writes them, mm, in the order
             in which they do; see `at`.
@@ -65,6 +65,10 @@ class RuleResult:
             value = getattr(self, name)
             if isinstance(value, float):
                 object.__setattr__(self, name, value + 0.0)  # no negative zero
+
+    def stated(self, severity: Severity) -> RuleResult:
+        """The result with its severity on a printer, and its source from the table."""
+        return replace(self, severity=severity, source=RULES[self.rule].source)
 
     def at(self, *points: Iterable[float]) -> RuleResult:
         """The result with those of the points that its words name."""

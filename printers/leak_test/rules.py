@@ -69,6 +69,18 @@ def leak_rules(
     profile: PrinterProfile,
 ) -> Iterator[RuleResult]:
     """One result for every rule."""
+    for result in _results(ratio, leaks, depth, seams, material, profile):
+        yield result.stated(profile.severity(result.rule))
+
+
+def _results(
+    ratio: float,
+    leaks: tuple[Leak, ...],
+    depth: Depth,
+    seams: SeamTolerance | None,
+    material: Material,
+    profile: PrinterProfile,
+) -> Iterator[RuleResult]:
     yield _leak_path(ratio, leaks, profile.line_width)
     yield _printed_depth(depth, profile)
     if seams is not None:

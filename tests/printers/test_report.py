@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import pytest
 
@@ -22,9 +23,7 @@ def test_a_place_is_never_at_minus_zero() -> None:
 @pytest.mark.parametrize("name", ["measured", "required", "uncertainty", "tolerance", "margin"])
 def test_no_number_of_a_result_is_minus_zero(name: str) -> None:
     numbers = dict.fromkeys(("measured", "required", "uncertainty", "tolerance", "margin"), 1.0)
-    found = RuleResult(
-        "bridge", "warn", unit="mm", where="", message="", **(numbers | {name: -0.0})
-    )
+    found = replace(result("", ""), **(numbers | {name: -0.0}))  # type: ignore[arg-type]
     assert math.copysign(1, getattr(found, name)) == 1
 
 

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from bellows_design.progress import Progress
     from printers.leak_test.result import LeakTest
     from printers.orientation.turning import Turning
+    from printers.profile import PrinterProfile
     from printers.report import PrintabilityReport
     from printers.slicing.finding import Slicer
 
@@ -40,13 +41,15 @@ def with_leak_test(
     if slicer is None:
         if not options.require_slicer:
             return report, (NO_SLICER,), None
-        return _with_failure(report, "there is no slicer, but the leak test is required"), (), None
+        reason = "there is no slicer, but the leak test is required"
+        return _with_failure(report, subject.profile, reason), (), None
     if not subject.model.openings:
         return report, ("without an opening there is no leak test",), None
     try:
         return _tested(subject, report, turning, options, progress, slicer)
     except PrintersError as error:
-        return _with_failure(report, f"the leak test could not be run: {error}"), (), None
+        reason = f"the leak test could not be run: {error}"
+        return _with_failure(report, subject.profile, reason), (), None
 
 
 def _tested(
@@ -98,8 +101,11 @@ def _keep(made: Path, path: Path) -> None:
         temporary.write_bytes(made.read_bytes())
 
 
-def _with_failure(report: PrintabilityReport, message: str) -> PrintabilityReport:
+def _with_failure(
+    report: PrintabilityReport, profile: PrinterProfile, message: str
+) -> PrintabilityReport:
     from printers.report import RuleResult
 
     failure = RuleResult(RULE, "fail", "not run", "sealed", "", "whole part", message)
-    return replace(report, rules=(*report.rules, failure))
+    stated = failure.stated(profile.severity(RULE))
+    return replace(report, rules=(*report.rules, stated))

@@ -14,7 +14,7 @@ from small_solids import arrays, block, bore, hollow_box, port_of
 
 from bellows_design.design.shipped import load_design, shipped_designs
 from bellows_design.printability import port_opening
-from printers import PrintabilityReport, PrintedModel, check_printability, load_profile
+from printers import RULES, PrintabilityReport, PrintedModel, check_printability, load_profile
 
 Bellows = Callable[..., tuple[int, str, str]]
 VERTICES, TRIANGLES = arrays(hollow_box())
@@ -207,7 +207,9 @@ def test_without_a_slicer_the_geometric_rules_stand_and_that_is_said(
     assert status == 0 and found["slicing"] is None
     assert any("no slicer" in note for note in found["notes"])
     status, found = answer(bellows, box, "--slice", "--require-slicer")
-    assert status == 1 and found["rules"][-1]["rule"] == "leak_test"
+    rule = found["rules"][-1]
+    assert status == 1 and rule["rule"] == "leak_test"
+    assert (rule["severity"], rule["source"]) == ("fail", RULES["leak_test"].source)
 
 
 @pytest.mark.slow
