@@ -9,7 +9,7 @@ import numpy as np
 from printers.arrays import Floats, Ints
 from printers.measure.box_tree import Crossings, crossings
 from printers.measure.part import MeasuredPart
-from printers.measure.shells import Shells
+from printers.measure.shells import NEGLIGIBLE_VOLUME, Shells
 from printers.measure.surface import Surface
 from printers.report import RuleResult, Verdict, pass_or_fail, place
 
@@ -74,8 +74,12 @@ def check_one_body(part: MeasuredPart) -> Iterator[RuleResult]:
     others: list[int] = []
     if count == 1:
         message = f"one solid body of {shells.material:.1f} mm³"
-    elif count == 0:
+    elif count == 0 and shells.voids:
         message = "the surface is inside out: its normals point into the material"
+    elif count == 0:
+        message = (
+            f"the surface is flat: no piece of it encloses more than {NEGLIGIBLE_VOLUME:g} mm³"
+        )
     else:
         main, *others = sorted(shells.bodies, key=lambda shell: -shells.bodies[shell])
         where = "; ".join(place(shells.middle(shell)) for shell in others[:5])

@@ -151,7 +151,12 @@ def test_a_mesh_that_does_not_close_fails_by_its_rules(bellows: Bellows, tmp_pat
         (("--opening", "1,2"), "X,Y,Z"),
         (("--opening", "0,5,5,-1"), "diameter"),
         (("--opening", "auto", "--opening", "0,5,5"), "auto alone"),
-        (("--up", "up"), "up is 'up'"),
+        (("--up", "up"), "--up is “up”; it must be X, -X, Y, -Y, Z, -Z or a vector"),
+        (("--up=",), "--up is “”; it must be"),
+        (("--up=", "--orientation", "auto"), "one of them"),
+        (("--orientation=",), "it can be auto"),
+        (("--printer=",), "printer profile"),
+        (("--filament=",), "filament"),
         (("--up", "X", "--orientation", "auto"), "one of them"),
         (("--orientation", "best"), "it can be auto"),
         (("--picture", "leak.png"), "it needs --slice"),
@@ -172,11 +177,23 @@ def test_options_that_cannot_be_meant_get_one_sentence(
     assert set(tmp_path.iterdir()) == before
 
 
+@pytest.mark.parametrize("scale", [0.01, 1e3])
+def test_a_part_of_a_size_that_cannot_be_meant_is_named(
+    bellows: Bellows, tmp_path: Path, scale: float
+) -> None:
+    path = written(tmp_path / "units.stl", binary_stl(scale * VERTICES, TRIANGLES))
+    status, out, err = bellows("check", path)
+    assert status == 2 and out == "" and "units.stl' cannot be taken as a part" in err
+    assert "are the units millimetres?" in err
+
+
 @pytest.mark.parametrize(
     ("name", "arguments", "words"),
     [
         ("finger", ("--opening", "0,0,0"), "a design declares its port"),
         ("finger", ("--up", "X"), "only a part in a file"),
+        ("finger", ("--up=",), "only a part in a file"),
+        ("finger", ("--orientation", "auto"), "only a part in a file"),
         ("part.gcode", (), "--opening X,Y,Z,DIAMETER"),
         ("part.gcode", ("--opening", "1,2,3"), "--opening X,Y,Z,DIAMETER"),
         ("part.gcode", ("--opening", "1,2,3,4", "--slice"), "sliced already"),
