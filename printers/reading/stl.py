@@ -7,6 +7,9 @@ for each facet that it declares.
 from __future__ import annotations
 
 import re
+from collections import Counter
+from collections.abc import Iterator
+from itertools import islice
 
 import numpy as np
 
@@ -27,7 +30,7 @@ _TEXT_FACET = re.compile(
 )
 _TEXT_LINE = re.compile(rb"\s*(solid|endsolid)(?![^\s])[^\r\n]*", re.IGNORECASE)
 MOST_SOLIDS = 10_000  # in one text
-_FACETS_AT_ONCE = 20_000
+_PIECES_AT_ONCE = 20_000
 
 
 def read_stl(content: bytes) -> ReadPart:
@@ -81,32 +84,31 @@ def _after_last(rest: bytes, count: int) -> tuple[str, ...]:
 
 
 def _text_corners(content: bytes) -> tuple[Floats, tuple[str, ...]]:
-    blocks: list[Floats] = []
-    numbers: list[bytes] = []
-    place = 3 if content.startswith(b"\xef\xbb\xbf") else 0
-    solids = open_solids = 0
-    while place < len(content):
-        if facet := _TEXT_FACET.match(content, place):
-            numbers.extend(facet.groups())
-            if len(numbers) == 9 * _FACETS_AT_ONCE:
-                blocks.append(_as_corners(numbers))
-                numbers = []
-                require_few(len(blocks) * _FACETS_AT_ONCE)
-            place = facet.end()
-        elif line := _TEXT_LINE.match(content, place):
-            begins = line[1].lower() == b"solid"
-            if solids > MOST_SOLIDS:
-                raise PrintersError(f"it holds more than {MOST_SOLIDS} solids")
-            solids, open_solids = solids + begins, open_solids + (1 if begins else -1)
-            place = line.end()
-        elif not content[place:].strip():
-            break
-        else:
-            raise _unread(content, place)
-    if open_solids:
+    pieces, blocks, lines = _pieces(content), list[Floats](), Counter[bytes]()
+    while some := list(islice(pieces, _PIECES_AT_ONCE)):
+        facets = [piece.groups() for piece in some if piece.re is _TEXT_FACET]
+        blocks.append(_as_corners([number for facet in facets for number in facet]))
+        require_few(sum(map(len, blocks)))
+        lines.update(piece[1].lower() for piece in some if piece.re is _TEXT_LINE)
+        if lines[b"solid"] > MOST_SOLIDS:
+            raise PrintersError(f"it holds more than {MOST_SOLIDS} solids")
+    if lines[b"solid"] != lines[b"endsolid"]:
         raise PrintersError("it ends before its last solid does: it is cut short")
-    corners = np.concatenate([*blocks, _as_corners(numbers)])
-    return corners, (f"{solids} solids in one file",) if solids > 1 else ()
+    solids = lines[b"solid"]
+    return np.concatenate(blocks), (f"{solids} solids in one file",) if solids > 1 else ()
+
+
+def _pieces(content: bytes) -> Iterator[re.Match[bytes]]:
+    """Facets, and lines that begin or end a solid, one after the other."""
+    place = 3 if content.startswith(b"\xef\xbb\xbf") else 0
+    while place < len(content):
+        piece = _TEXT_FACET.match(content, place) or _TEXT_LINE.match(content, place)
+        if piece is None and content[place:].strip():
+            raise _unread(content, place)
+        if piece is None:
+            return
+        yield piece
+        place = piece.end()
 
 
 def _as_corners(numbers: list[bytes]) -> Floats:
