@@ -29,6 +29,7 @@ from printers.tolerances import ROUNDING
 TOUCHING = 1e-6
 """mm. A shorter way is rounding, and so is its direction."""
 
+SIDEWAYS = np.array([1.0, 0.0, 0.0])
 CANDIDATES = 8  # triangles looked at for the nearest one
 OPPOSITE = float(np.cos(np.radians(30.0)))
 ALONG = float(np.sin(np.radians(30.0)))  # faces of a bore lie along its axis as closely as this
@@ -143,7 +144,8 @@ def _ways(points: Floats, way: Floats, outwards: Floats) -> WaysOut:
     thickness = np.linalg.norm(way, axis=1)
     touching = thickness <= TOUCHING
     direction = way / np.where(touching, 1.0, thickness)[:, None]
-    direction[touching] = outwards[touching]
+    looks = np.linalg.norm(outwards, axis=1) > 0  # a triangle without area looks nowhere
+    direction[touching] = np.where(looks.reshape(-1, 1), outwards, SIDEWAYS)[touching]
     return WaysOut(points, np.where(touching, 0.0, thickness), direction)
 
 
