@@ -15,7 +15,7 @@ import numpy as np
 
 from printers.arrays import Floats
 from printers.measure.part import MeasuredPart
-from printers.measure.ways_out import WaysOut, ways_out
+from printers.measure.thickness.ways_out import WaysOut, ways_out
 from printers.profile import PrinterProfile
 from printers.report import RuleResult, against, at_least, place
 from printers.tolerances import FACET_TOLERANCE, ROUNDING

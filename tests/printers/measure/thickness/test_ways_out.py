@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from printers import Opening, PrinterProfile
-from printers.measure.ways_out import _ways, ways_out
+from printers.measure.thickness.ways_out import _ways, ways_out
 
 SCALE = np.array([1.2, 1.2, 0.8])
 
