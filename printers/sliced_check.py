@@ -44,7 +44,7 @@ class SlicedCheck:
             "print_seconds": sliced.gcode.estimated_time,
             "filament_mm": sliced.gcode.filament_length,
             "notes": list(self.notes),
-            "leak_test": self.leaks.to_dict(),
+            "leak_test": self.leaks.figures(),
         }
 
 

@@ -43,6 +43,6 @@ def tested(slicer: Slicer, design: Design, mesh: ClosedMesh) -> LeakOutcome:
         version=found.sliced.version,
         profile_sha256=found.sliced.profile_digest,
         rules=found.leaks.rules,
-        figures=found.leaks.to_dict() | {"notes": list(found.notes)},
+        figures=found.leaks.figures() | {"notes": list(found.notes)},
         seconds=time.perf_counter() - started,
     )

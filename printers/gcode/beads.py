@@ -92,6 +92,21 @@ class Beads:
         return self.length * self.width * self.height
 
     @property
+    def layer_heights(self) -> Floats:
+        """(k,) mm to the micrometre: the highest bead in each layer of the part but the lowest.
+
+        The lowest is as high as the bed needs it, and counts where there is no other. Bridges
+        count for no layer: slicers may lay them as thick as the nozzle.
+        """
+        layered = self.of_part & (self.kind != BRIDGE)
+        above = layered & (self.layer > self.layer[self.of_part].min(initial=0))
+        chosen = self.chosen(above if above.any() else layered)
+        layers, place = np.unique(chosen.layer, return_inverse=True)
+        highest = np.zeros(len(layers))
+        np.maximum.at(highest, place, chosen.height)
+        return np.round(highest, 3)
+
+    @property
     def of_part(self) -> Flags:
         """(n,): beads that are part of the part, neither support nor skirt, brim or purge."""
         return np.asarray((self.kind != SUPPORT) & (self.kind != SKIRT))

@@ -55,7 +55,7 @@ def check_gcode(options: CheckOptions) -> Answer:
         "openings": [opening_dict(opening) for opening in openings],
         "notes": list(notes),
         **report.to_dict(),
-        "leak_test": found.to_dict(),
+        "leak_test": found.figures(),
     }
     status = DONE if report.verdict == "pass" else REFUSED
     return Answer(content, report_table(Path(options.name).name, report, notes), status)
