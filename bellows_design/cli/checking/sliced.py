@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 Extended = tuple["PrintabilityReport", tuple[str, ...], "dict[str, Any] | None"]
 """Report with the rules of the leak test, notes, and what JSON says of the slicing."""
 
-NO_SLICER = "there is no slicer, so no leak test was run: the verdict stands on the geometric rules"
+NOT_TESTED = "so no leak test was run: the verdict stands on the geometric rules"
 RULE = "leak_test"
 
 
@@ -36,11 +36,15 @@ def with_leak_test(
     from printers.errors import PrintersError
     from printers.slicing.finding import find_slicer
 
-    slicer = find_slicer()
+    why, slicer = "there is no slicer", None
+    try:
+        slicer = find_slicer()
+    except PrintersError as error:
+        why = str(error).rstrip(".")
     if slicer is None:
         if not options.require_slicer:
-            return report, (NO_SLICER,), None
-        return _with_failure(report, "there is no slicer, but the leak test is required"), (), None
+            return report, (f"{why}, {NOT_TESTED}",), None
+        return _with_failure(report, f"{why}, but the leak test is required"), (), None
     if not subject.model.openings:
         return report, ("without an opening there is no leak test",), None
     try:
