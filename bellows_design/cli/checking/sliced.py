@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import tempfile
-from contextlib import ExitStack
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -62,15 +60,14 @@ def _tested(
     slicer: Slicer,
 ) -> Extended:
     from printers.sliced_check import check_sliced
+    from printers.slicing.working_folder import working_folder
 
     progress.stage(f"slice with {slicer.name} {slicer.version}, and leak test")
-    with ExitStack() as stack:
-        folder = None
-        if options.keep_gcode is not None:
-            folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="bellows-")))
+    with working_folder() as folder:
         found = check_sliced(subject.model, subject.profile, turning, slicer, folder)
-        if folder is not None and options.keep_gcode is not None:
-            _keep(folder / "part.gcode", options.keep_gcode)
+        made = (folder / "part.gcode").read_bytes() if options.keep_gcode else b""
+    if options.keep_gcode is not None:
+        _keep(made, options.keep_gcode)
     said = (
         f"sliced with {found.sliced.slicer} {found.sliced.version}, profile "
         f"{found.sliced.profile_digest[:16]}",
@@ -95,11 +92,11 @@ def drawn(leaks: LeakTest, path: Path | None) -> tuple[str, ...]:
     return (f"{path}: the layer with {'the leak' if leaks.leaks else 'the thinnest seal'}",)
 
 
-def _keep(made: Path, path: Path) -> None:
+def _keep(made: bytes, path: Path) -> None:
     from bellows_design.files.atomic import replacing
 
     with replacing(path) as temporary:
-        temporary.write_bytes(made.read_bytes())
+        temporary.write_bytes(made)
 
 
 def _with_failure(report: PrintabilityReport, message: str) -> PrintabilityReport:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 from collections.abc import Callable
 from pathlib import Path
@@ -13,7 +14,7 @@ from pretended_slicer import SETTINGS_BLOCK, loop
 
 from printers import load_profile
 from printers.errors import PrintersError
-from printers.slicing.finding import Slicer
+from printers.slicing.finding import Slicer, find_slicer
 from printers.slicing.making import run_slicer, slice_mesh
 from printers.slicing.prusa import prusa_settings, settings_digest
 from printers.slicing.stl import binary_stl
@@ -131,6 +132,31 @@ def test_nothing_is_left_behind(
     with pytest.raises(PrintersError):
         slice_mesh(*box, PROFILE, pretended("exit 1"), seconds=20)
     assert os.listdir(tmp_path / "temporary") == []
+
+
+def full(*_: object, **__: object) -> None:
+    raise OSError(errno.ENOSPC, "No space left on device")
+
+
+@pytest.mark.parametrize("name", ["pathlib.Path.write_bytes", "pathlib.Path.open", "os.mkdir"])
+def test_a_full_temporary_folder_is_one_sentence(
+    pretended: Pretended, box: Box, monkeypatch: pytest.MonkeyPatch, name: str
+) -> None:
+    """As for any other fault of the slicer, the caller decides what follows from it."""
+    slicer = pretended(GOOD)
+    monkeypatch.setattr(name, full)
+    with pytest.raises(PrintersError, match=r"slicer cannot be written: No space left on device$"):
+        slice_mesh(*box, PROFILE, slicer, seconds=20)
+
+
+@pytest.mark.parametrize("name", ["pathlib.Path.open", "os.mkdir"])
+def test_a_slicer_that_cannot_be_asked_for_want_of_space_is_one_sentence(
+    pretended: Pretended, monkeypatch: pytest.MonkeyPatch, name: str
+) -> None:
+    path = str(pretended(GOOD).path)
+    monkeypatch.setattr(name, full)
+    with pytest.raises(PrintersError, match=r"slicer cannot be written: No space left on device$"):
+        find_slicer({"BELLOWS_SLICER": path})
 
 
 def test_without_a_slicer_the_sentence_says_how_to_get_one(box: Box) -> None:
