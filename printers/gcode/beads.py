@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from printers.arrays import Flags, Floats, Ints
+from printers.errors import PrintersError
 
 EXTERNAL_PERIMETER = 0
 PERIMETER = 1
@@ -90,6 +91,24 @@ class Beads:
     def volume(self) -> Floats:
         """(n,) mm³ of plastic."""
         return self.length * self.width * self.height
+
+    @property
+    def part_box(self) -> tuple[Floats, Floats]:
+        """(3,) least and (3,) greatest coordinates of the plastic of the part, mm.
+
+        Raises:
+            PrintersError: No bead is of the part.
+        """
+        part = self.chosen(self.of_part)
+        if not len(part):
+            raise PrintersError("the G-code lays down nothing of the part")
+        half = part.width[:, None] / 2
+        lower = np.minimum(part.start, part.end) - half
+        upper = np.maximum(part.start, part.end) + half
+        return (
+            np.array([*lower.min(axis=0), (part.top - part.height).min()]),
+            np.array([*upper.max(axis=0), part.top.max()]),
+        )
 
     @property
     def layer_heights(self) -> Floats:

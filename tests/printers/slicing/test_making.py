@@ -31,8 +31,8 @@ def test_what_the_slicer_makes_is_read_back(pretended: Pretended, box: Box) -> N
     assert (sliced.slicer, sliced.version) == ("PrusaSlicer", "2.5.0")
     assert sliced.profile_digest == settings_digest(prusa_settings(PROFILE))
     beads = sliced.gcode.beads
-    assert len(beads) == 4 and sliced.warnings == ()
-    points = np.column_stack((beads.start, np.zeros(4)))
+    assert len(beads) == 80 and sliced.warnings == ()
+    points = np.column_stack((beads.start, np.zeros(80)))
     found = sliced.placement.to_part(points)
     np.testing.assert_allclose(found.min(axis=0), [40.2, 50.2, 60])
     assert sliced.notes == () if sliced.reproducible else len(sliced.notes) == 1
@@ -85,6 +85,12 @@ def test_what_slicers_do_in_silence_is_noticed(
     seconds = 0.5 if "sleep" in body else 20
     with pytest.raises(PrintersError, match=message):
         slice_mesh(*box, PROFILE, pretended(body), seconds=seconds)
+
+
+def test_half_of_the_part_is_told(pretended: Pretended, box: Box) -> None:
+    half = f"{loop(125, 105, 11.6, 7.6, layers=10)}; {SETTINGS_BLOCK}"
+    notes = slice_mesh(*box, PROFILE, pretended(half), seconds=20).notes
+    assert any("on the last 2.00 mm towards +z" in note for note in notes)
 
 
 def test_an_old_file_is_not_taken_for_the_slicers(
