@@ -34,7 +34,7 @@ class SlicedCheck:
         return (*self.sliced.notes, *warnings, *self.leaks.notes)
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain values for JSON."""
+        """Plain values for JSON that states rules and notes elsewhere."""
         sliced = self.sliced
         return {
             "slicer": sliced.slicer,
@@ -43,7 +43,6 @@ class SlicedCheck:
             "seconds": sliced.seconds,
             "print_seconds": sliced.gcode.estimated_time,
             "filament_mm": sliced.gcode.filament_length,
-            "notes": list(self.notes),
             "leak_test": self.leaks.figures(),
         }
 

@@ -94,8 +94,8 @@ def _open_sides(lower: Floats, upper: Floats, line_width: float) -> list[str]:
     off = [(f"-{'xyz'[axis]}", lower[axis]) for axis in range(3)]
     off += [(f"+{'xyz'[axis]}", -upper[axis]) for axis in range(3)]
     return [
-        f"nothing is laid down on the last {gap:.2f} mm towards {side}: something is thinner there "
-        f"than the slicer prints"
+        f"nothing is laid down on the last {gap:.2f} mm towards {side}: the G-code ends there, or "
+        f"something is thinner than the slicer prints"
         for side, gap in off
         if gap > line_width
     ]

@@ -72,6 +72,7 @@ def test_a_short_finger_is_sliced_and_sealed() -> None:
     assert found.slicer == "PrusaSlicer" and len(found.profile_sha256) == 64
     assert found.rules and not [rule for rule in found.rules if rule.verdict == "fail"]
     json.dumps(found.figures, allow_nan=False)
+    assert "rules" not in found.figures and all(rule.severity for rule in found.rules)
 
 
 @pytest.mark.slicer
