@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import asdict, dataclass, replace
 from typing import Any, Literal
 
-from printers.rule_table import RULES, Severity
+from printers.rule_table import Severity
 
 Verdict = Literal["pass", "info", "warn", "fail"]
 
@@ -65,10 +65,6 @@ class RuleResult:
             value = getattr(self, name)
             if isinstance(value, float):
                 object.__setattr__(self, name, value + 0.0)  # no negative zero
-
-    def stated(self, severity: Severity) -> RuleResult:
-        """The result with its severity on a printer, and its source from the table."""
-        return replace(self, severity=severity, source=RULES[self.rule].source)
 
     def at(self, *points: Iterable[float]) -> RuleResult:
         """The result with those of the points that its words name."""

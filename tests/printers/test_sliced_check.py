@@ -1,32 +1,44 @@
-"""Places of the G-code in the coordinates of the part's file."""
+"""A slicer and the leak test put together: their record says each thing once."""
 
 from __future__ import annotations
 
+import json
+from pathlib import Path
+from types import MappingProxyType
+
 import numpy as np
 import pytest
-from small_solids import arrays, hollow_box, port_of
+from bead_boxes import Box
+from small_solids import arrays, hollow_box
 
-from printers import PrintedModel, PrinterProfile
-from printers.orientation.turning import parse_up, turned
-from printers.sliced_check import _on_bed, _to_file
-from printers.slicing.placing import placed
+from printers import PrintedModel, load_profile
+from printers.gcode.reading import GCode
+from printers.orientation.turning import AS_IN_FILE
+from printers.rule_table import RULES
+from printers.sliced_check import check_sliced
+from printers.slicing.finding import Slicer
+from printers.slicing.making import Sliced
+from printers.slicing.placing import Placement
 
 
-@pytest.mark.parametrize("up", ["Z", "-X", "-Z", "1,2,3"])
-@pytest.mark.parametrize("rotation", [0.0, 90.0, 17.0])
-def test_a_place_on_the_bed_leads_back_to_that_of_the_file(
-    up: str, rotation: float, prusa: PrinterProfile
-) -> None:
-    vertices, triangles = arrays(hollow_box().translate((3.0, -20.0, 40.0)))
-    part = PrintedModel(vertices, triangles, openings=(port_of(),))
-    turning = parse_up(up)
-    standing = turned(part, turning)
-    placement = placed(standing.vertices, rotation, prusa)
-    on_bed = placement.to_gcode(standing.vertices)
-    assert on_bed[:, 2].min() == pytest.approx(0.0, abs=1e-9)
-    back = _to_file(placement, part, turning)
-    in_file = np.column_stack([on_bed, np.ones(len(on_bed))]) @ back.T
-    np.testing.assert_allclose(in_file[:, :3], vertices, atol=1e-9)
-    (opening,) = standing.openings
-    centre = back @ np.array([*_on_bed(opening, placement).centre, 1.0])
-    np.testing.assert_allclose(centre[:3], port_of().centre, atol=1e-9)
+def sliced_box() -> Sliced:
+    """The box of beads, as a slicer's; its part stands where the G-code has it."""
+    code = GCode(Box().beads, "It", "1", 60.0, 1.75, "G-code", 9.0, 9.0, MappingProxyType({}), ())
+    stays = Placement(0.0, np.zeros(3))
+    return Sliced(code, "It", "1", "ab", 1.0, stays, True, ("Odd.",), ("Something is missing.",))
+
+
+def test_rules_and_notes_stand_beside_the_figures(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("printers.sliced_check.slice_mesh", lambda *_: sliced_box())
+    model = PrintedModel(*arrays(hollow_box()), openings=(Box().opening,))
+    slicer = Slicer(Path("it"), "It", "1")
+    found = check_sliced(model, load_profile("prusa_i3"), AS_IN_FILE, slicer)
+    record = found.to_dict()
+    json.dumps(record, allow_nan=False)
+    assert "notes" not in record and not {"rules", "notes"} & set(record["leak_test"])
+    assert found.notes[:2] == ("Something is missing.", "the slicer warns: Odd.")
+    rules = {result.rule: result for result in found.leaks.rules}
+    assert rules["layer_height"].verdict == "fail", "its layers are 0.2 mm high"
+    assert rules["printed_material"].verdict == "warn", "its solid is another one"
+    for name, result in rules.items():
+        assert (result.severity, result.source) == (RULES[name].severity, RULES[name].source)

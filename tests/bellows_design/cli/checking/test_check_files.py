@@ -216,16 +216,17 @@ def test_another_filament_is_taken_with_its_settings(bellows: Bellows, box: str)
     assert answer(bellows, box, "--filament", "fiberflex_40d")[0] == 0
 
 
+@pytest.mark.parametrize(("named", "words"), [("", "no slicer"), ("/nope", "names '/nope'")])
 def test_without_a_slicer_the_geometric_rules_stand_and_that_is_said(
-    bellows: Bellows, box: str, monkeypatch: pytest.MonkeyPatch
+    bellows: Bellows, box: str, monkeypatch: pytest.MonkeyPatch, named: str, words: str
 ) -> None:
-    monkeypatch.setenv("BELLOWS_SLICER", "")
+    monkeypatch.setenv("BELLOWS_SLICER", named)
     status, found = answer(bellows, box, "--slice")
     assert status == 0 and found["slicing"] is None
-    assert any("no slicer" in note for note in found["notes"])
+    assert any(words in note for note in found["notes"])
     status, found = answer(bellows, box, "--slice", "--require-slicer")
     rule = found["rules"][-1]
-    assert status == 1 and rule["rule"] == "leak_test"
+    assert status == 1 and rule["rule"] == "leak_test" and words in rule["message"]
     assert (rule["severity"], rule["source"]) == ("fail", RULES["leak_test"].source)
 
 
