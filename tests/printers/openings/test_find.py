@@ -15,6 +15,7 @@ from printers.measure.surface import Surface, merged_surface
 from printers.openings.find import FoundOpenings, find_mouths, only_opening
 
 BLOCK = block((20, 20, 12), (0, 0, 0))
+CHORD = 1 - np.cos(np.pi / SEGMENTS)  # mm: by which the sides of a bore of 1 mm lie inside it
 TURNS = [(0.0, 0.0, 0.0), (17.0, 33.0, 71.0), (90.0, 0.0, 45.0)]
 
 
@@ -185,3 +186,28 @@ def test_the_port_of_a_broken_part_is_found_whatever_its_fault(name: str) -> Non
     (opening,) = only_opening(find_mouths(merged_surface(part.vertices, part.triangles))).openings
     np.testing.assert_allclose(opening.centre, part.opening.centre, atol=0.05)
     assert opening.radius <= part.opening.radius + 0.05
+
+
+@pytest.mark.parametrize("diameter", [0.002, 0.01, 0.04, 0.1])
+def test_a_pin_hole_however_thin_hides_no_port(diameter: float) -> None:
+    """No sample lies on the wall of so thin a hole, which must not tear the rims."""
+    found = found_on(hollow_box() - bore(diameter / 2, (7.0, 5.0, 9.0), 3.0, 2))
+    (opening,) = found.openings
+    np.testing.assert_allclose(opening.centre, (0.0, 5.2, 5.2), atol=1e-5)
+    assert any("taken for leaks" in note and "(7.0, 5.0, 10.4) mm" in note for note in found.notes)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("times", [1, 3, 8, 20, 30])
+def test_another_triangulation_of_the_same_faces_has_the_same_mouth(times: int) -> None:
+    """Up to 371 000 triangles, of which one in 200 has a sample."""
+    (opening,) = found_on(hollow_box().refine(times)).openings
+    np.testing.assert_allclose(opening.centre, (0.0, 5.2, 5.2), atol=1e-5)
+    assert opening.radius == pytest.approx(1.0, abs=CHORD) and opening.reach is None
+
+
+@pytest.mark.parametrize("times", [2, 5])
+def test_a_finer_mesh_of_a_fine_bellows_has_the_same_mouth(times: int) -> None:
+    (opening,) = found_on(bellows(1.2, 1.2, 1.6, 1.2, 3).refine(times)).openings
+    np.testing.assert_allclose(opening.centre, (-4.0, 0.0, 3.2), atol=1e-5)
+    assert opening.radius == pytest.approx(1.0, abs=CHORD)
