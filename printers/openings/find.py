@@ -94,6 +94,7 @@ def only_opening(mouths: Mouths) -> FoundOpenings:
             f"the cavity has {1 + len(others)} mouths: {_listed([first, *others])}; name what is "
             "meant to be open with --opening X,Y,Z, once for each"
         )
+    first.require_port()
     return FoundOpenings((first.opening(NAME),), _notes(mouths, first, others))
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from printers.arrays import Floats, Ints
+from printers.errors import PrintersError
 from printers.measure.closest_point import closest_on_segments
 from printers.measure.plugging import frame_of
 from printers.measure.surface import Surface
@@ -19,6 +20,10 @@ ENTRY = 0.5  # mm behind the rim over which a pin of the mouth's diameter must f
 LEAST_PIN = 0.05  # mm: where less enters, something stands in the mouth, as `opening_width` says
 DIGITS = 6  # of a coordinate in mm: more are noise of single precision
 PLANE = 0.05  # mm: a rim this close to a plane is one
+LONGEST = 2.5
+"""Ratio of reach to radius up to which a mouth is a port, beyond it a slit. A slot twice as long as
+it is wide has 2.24, a square 1.41. A convention: what is longer is asked about."""
+MOST_HULL_CORNERS = 1000  # of the line around a rim: more are finer than its bays are judged
 
 
 @dataclass(frozen=True)
@@ -33,6 +38,8 @@ class Mouth:
         area: Of the rim as seen along the axis, mm².
         is_round: Whether the rim is a circle, within the tolerance of facets.
         is_plane: Whether it lies in a plane; a hole in a round wall does not.
+        bay: How far the rim runs in from the shortest line around it, mm: where a crack, or
+            another hole, runs into the mouth. 0 if it is round.
     """
 
     centre: tuple[float, float, float]
@@ -42,6 +49,13 @@ class Mouth:
     area: float
     is_round: bool
     is_plane: bool
+    bay: float = 0.0
+
+    @property
+    def is_port(self) -> bool:
+        """Whether a plug may fill all of it: it is no slit, and nothing runs into it."""
+        is_slit = self.reach > LONGEST * self.radius
+        return self.is_round or not (is_slit or self.bay > FACET_TOLERANCE)
 
     @property
     def diameter(self) -> float:
@@ -52,6 +66,15 @@ class Mouth:
         """As it is declared. Raises PrintersError if it is wider than an opening can be."""
         reach = None if self.is_round else self.reach
         return Opening(name, self.centre, self.direction, self.radius, reach)
+
+    def require_port(self) -> None:
+        """Raise PrintersError if a plug of the whole mouth would hide a crack that runs into it."""
+        if not self.is_port:
+            raise PrintersError(
+                f"the mouth at {self.described()} is a slit, or a crack or another hole runs into "
+                "it; name what is meant to be open with --opening X,Y,Z,DIAMETER in mm: what is "
+                "open beside that is then a leak"
+            )
 
     def described(self) -> str:
         """Its place and width, for people."""
@@ -95,6 +118,7 @@ def _mouth(surface: Surface, cavity: Cavity, rim: Ints) -> Mouth | None:
         area=area,
         is_round=is_round,
         is_plane=height <= 2 * PLANE,
+        bay=0.0 if is_round else _deepest_bay(flat_start[:, :2]),
     )
 
 
@@ -132,6 +156,20 @@ def _pin(start: Floats, end: Floats) -> float:
     """Radius of the pin that enters in the middle of the area."""
     middle = np.broadcast_to(_middle_of_area(start, end), start.shape)
     return float(np.linalg.norm(closest_on_segments(start, end, middle) - middle, axis=1).min())
+
+
+def _deepest_bay(rim: Floats) -> float:
+    """How far, mm, a corner of the rim (k, 2) lies within the convex hull of all."""
+    from scipy.spatial import ConvexHull
+
+    around = ConvexHull(rim).vertices  # anticlockwise
+    start = rim[around[:: 1 + len(around) // MOST_HULL_CORNERS]]
+    side = np.roll(start, -1, axis=0) - start
+    inwards = np.column_stack([-side[:, 1], side[:, 0]]) / np.linalg.norm(side, axis=1)[:, None]
+    within = np.full(len(rim), np.inf)
+    for corner, normal in zip(start, inwards, strict=True):
+        within = np.minimum(within, (rim - corner) @ normal)
+    return float(within.max())
 
 
 def _room(surface: Surface, cavity: Cavity, centre: Floats, axis: Floats, frame: Floats) -> float:

@@ -206,8 +206,48 @@ def test_another_triangulation_of_the_same_faces_has_the_same_mouth(times: int) 
     assert opening.radius == pytest.approx(1.0, abs=CHORD) and opening.reach is None
 
 
-@pytest.mark.parametrize("times", [2, 5])
+@pytest.mark.parametrize("times", [2, 3])
 def test_a_finer_mesh_of_a_fine_bellows_has_the_same_mouth(times: int) -> None:
     (opening,) = found_on(bellows(1.2, 1.2, 1.6, 1.2, 3).refine(times)).openings
     np.testing.assert_allclose(opening.centre, (-4.0, 0.0, 3.2), atol=1e-5)
     assert opening.radius == pytest.approx(1.0, abs=CHORD)
+
+
+THROUGH = 1.4  # mm: through the wall of 1.2 mm
+RUNS_IN = {
+    "crack": block((THROUGH, 3.6, 0.3), (-0.1, 5.2, 5.05)),
+    "fine crack": block((THROUGH, 3.6, 0.01), (-0.1, 5.2, 5.2)),
+    "short crack": block((THROUGH, 1.3, 0.1), (-0.1, 5.2, 5.15)),
+    "pin hole on the rim": bore(0.15, (-0.1, 6.2, 5.2), THROUGH),
+    "thin pin hole on the rim": bore(0.04, (-0.1, 6.2, 5.2), THROUGH),
+    "cracks to all sides": block((THROUGH, 5.0, 0.1), (-0.1, 2.7, 5.15))
+    + block((THROUGH, 0.1, 5.0), (-0.1, 5.15, 2.7)),
+}
+
+
+@pytest.mark.parametrize("what", RUNS_IN)
+@pytest.mark.parametrize("turn", TURNS[:2])
+def test_what_runs_into_the_port_is_asked_about(what: str, turn: tuple[float, ...]) -> None:
+    """A plug of the whole mouth would close it, and the part pass for tight."""
+    with pytest.raises(PrintersError, match=r"runs into it; .*--opening X,Y,Z,DIAMETER"):
+        found_on((hollow_box() - RUNS_IN[what]).rotate(turn))
+
+
+@pytest.mark.parametrize(("length", "asked"), [(2.0, False), (4.0, False), (5.5, True)])
+def test_a_slit_is_no_port(length: float, asked: bool) -> None:
+    part = hollow_box(port=False) - block((4, length, 2.0), (-2, 5.2 - length / 2, 4.2))
+    if asked:
+        with pytest.raises(PrintersError, match="is a slit"):
+            found_on(part)
+    else:
+        assert len(found_on(part).openings) == 1
+
+
+def test_ports_of_other_shapes_are_taken_whole() -> None:
+    """A drop, which prints without a support, and a hexagon."""
+    across = bore(1.0, (-1.0, 5.2, 5.2), 2.5)
+    corner = block((2.5, 1.0, 1.0), (0, 0, 0)).rotate((45, 0, 0)).translate((-1.0, 5.2, 5.2))
+    hexagon = Manifold.cylinder(2.5, 1.0, 1.0, 6).rotate((0, 90, 0)).translate((-1.0, 5.2, 5.2))
+    for hole in (across + corner, hexagon):
+        (opening,) = found_on(hollow_box(port=False) - hole).openings
+        assert opening.reach is not None
