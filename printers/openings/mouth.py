@@ -40,6 +40,8 @@ class Mouth:
         is_plane: Whether it lies in a plane; a hole in a round wall does not.
         bay: How far the rim runs in from the shortest line around it, mm: where a crack, or
             another hole, runs into the mouth. 0 if it is round.
+        beyond: How much farther than the rim the cavity's wall lies from the axis, mm: nothing if
+            it is a plain hole, such as a screw's.
     """
 
     centre: tuple[float, float, float]
@@ -50,6 +52,7 @@ class Mouth:
     is_round: bool
     is_plane: bool
     bay: float = 0.0
+    beyond: float = 0.0
 
     @property
     def is_port(self) -> bool:
@@ -119,6 +122,7 @@ def _mouth(surface: Surface, cavity: Cavity, rim: Ints) -> Mouth | None:
         is_round=is_round,
         is_plane=height <= 2 * PLANE,
         bay=0.0 if is_round else _deepest_bay(flat_start[:, :2]),
+        beyond=_farthest(surface, cavity, centre, frame) - float(distances.max()),
     )
 
 
@@ -170,6 +174,12 @@ def _deepest_bay(rim: Floats) -> float:
     for corner, normal in zip(start, inwards, strict=True):
         within = np.minimum(within, (rim - corner) @ normal)
     return float(within.max())
+
+
+def _farthest(surface: Surface, cavity: Cavity, centre: Floats, frame: Floats) -> float:
+    """Greatest distance, mm, of the cavity's wall from the axis."""
+    across = (surface.corners[cavity.triangles] - centre) @ frame[:, :2]
+    return float(np.linalg.norm(across, axis=2).max())
 
 
 def _room(surface: Surface, cavity: Cavity, centre: Floats, axis: Floats, frame: Floats) -> float:

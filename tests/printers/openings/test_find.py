@@ -131,7 +131,7 @@ def test_blind_holes_of_screws_are_left_aside() -> None:
     found = found_on(hollow_box() + solid_end)
     (opening,) = found.openings
     np.testing.assert_allclose(opening.centre, (0.0, 5.2, 5.2), atol=1e-5)
-    assert any("blind holes" in note for note in found.notes)
+    assert any("left aside" in note for note in found.notes)
 
 
 @pytest.mark.parametrize(
@@ -251,3 +251,21 @@ def test_ports_of_other_shapes_are_taken_whole() -> None:
     for hole in (across + corner, hexagon):
         (opening,) = found_on(hollow_box(port=False) - hole).openings
         assert opening.reach is not None
+
+
+END = block((6, 10.4, 6), (14.4, 0, 0))  # solid, at the far end of the box
+
+
+@pytest.mark.parametrize("radius", [0.1, 0.25, 0.5])
+def test_a_small_chamber_with_a_mouth_of_its_own_is_asked_about(radius: float) -> None:
+    """Its air is a thirtieth of the cavity's."""
+    chamber = block((2.4, 4, 3), (15.6, 3, 1.5)) + bore(radius, (17, 5, 3), 4)
+    with pytest.raises(PrintersError, match=r"2 cavities .*\(20\.4, 5\.0, 3\.0\) mm"):
+        found_on(hollow_box() + END - chamber)
+
+
+def test_holes_for_screws_right_through_are_left_aside() -> None:
+    hole = bore(0.8, (18.0, -1.0, 3.0), 13.0, 1)
+    sunk = hole + bore(1.6, (18.0, -1.0, 3.0), 3.0, 1)
+    for tool in (hole, sunk):
+        assert len(found_on(hollow_box() + END - tool).openings) == 1
