@@ -11,6 +11,7 @@ from printers.errors import PrintersError
 from printers.measure.closest_point import closest_on_segments
 from printers.measure.plugging import frame_of
 from printers.measure.surface import Surface
+from printers.measure.widths import shown
 from printers.model import LARGEST_LENGTH, Opening
 from printers.openings.inner_surface import Cavity, rim_of
 from printers.report import place
@@ -81,11 +82,11 @@ class Mouth:
 
     def described(self) -> str:
         """Its place and width, for people."""
-        width = f"{self.diameter:.2f} mm wide"
+        width = f"{shown(self.diameter)} mm wide"
         if not self.is_round:
             width = (
-                f"not round: {2 * self.radius:.2f} to {2 * self.reach:.2f} mm wide, "
-                f"its area that of {self.diameter:.2f} mm"
+                f"not round: {shown(2 * self.radius)} to {shown(2 * self.reach)} mm wide, "
+                f"its area that of {shown(self.diameter)} mm"
             )
         return f"{place(self.centre)} ({width})"
 

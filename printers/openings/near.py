@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from itertools import combinations
+
 import numpy as np
 
 from printers.arrays import Floats
@@ -70,6 +73,18 @@ def _snapped(mouth: Mouth, point: Floats, diameter: float | None, name: str) -> 
     reach = mouth.reach if mouth.reach > radius else None
     opening = Opening(name, mouth.centre, mouth.direction, radius, reach)
     return FoundOpenings((opening,), (f"{note}; declared as {diameter:g} mm wide",))
+
+
+def require_apart(openings: Sequence[Opening]) -> None:
+    """Raise PrintersError if two openings are one mouth: their pins, side by side, overlap."""
+    for one, other in combinations(openings, 2):
+        apart = float(np.linalg.norm(np.subtract(one.centre, other.centre)))
+        alike = float(np.dot(one.direction, other.direction)) > 0
+        if alike and apart < one.radius + other.radius:
+            raise PrintersError(
+                f"{one.name} at {place(one.centre)} and {other.name} at {place(other.centre)} "
+                f"are the same mouth, or overlap; name each mouth once"
+            )
 
 
 def _onto(mouth: Mouth, point: Floats) -> tuple[float, float, float]:

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from printers.measure.leakage.leaks import Leak
 from printers.measure.part import MeasuredPart
 from printers.measure.plugging import Sealing
+from printers.measure.widths import shown
 from printers.report import RuleResult, Verdict, place
 
 
@@ -80,7 +81,7 @@ def _open_cavity(part: MeasuredPart) -> Diagnosis:
 def _sizes(leaks: Sequence[Leak]) -> str:
     if not leaks:
         return " somewhere, more widely than at the declared opening"
-    named = [f"near {place(leak.centre)} ({leak.width:.2f} mm wide)" for leak in leaks[:5]]
+    named = [f"near {place(leak.centre)} ({shown(leak.width)} mm wide)" for leak in leaks[:5]]
     rest = [f"and in {len(leaks) - 5} more places"] if len(leaks) > 5 else []
     return " " + ", ".join(named + rest)
 

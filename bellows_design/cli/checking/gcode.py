@@ -26,6 +26,7 @@ def check_gcode(options: CheckOptions) -> Answer:
     from bellows_design.progress import on_stderr
     from printers.gcode.reading import read_gcode
     from printers.leak_test.run import leak_test
+    from printers.openings.near import require_apart
     from printers.report import PrintabilityReport
 
     named, profile = _named(options), options.profile()
@@ -36,6 +37,7 @@ def check_gcode(options: CheckOptions) -> Answer:
             opening_on(gcode.beads, each, f"opening {i}" if len(named) > 1 else "opening")
             for i, each in enumerate(named, 1)
         )
+        require_apart(openings)
         progress.stage("leak test")
         found = leak_test(gcode.beads, openings, profile)
     report = PrintabilityReport(profile.name, found.rules)
