@@ -12,12 +12,15 @@ import numpy as np
 
 from printers.arrays import Flags, Floats, Ints
 from printers.measure.box_tree import first_hits
-from printers.measure.samples import sample
+from printers.measure.samples import Samples, sample
 from printers.measure.surface import Surface
 
 RAYS = 48
 SAMPLES_PER_SQUARE_MILLIMETRE = 1.0
 SAMPLE_BOUNDS = (2_000, 6_000)
+CLOSE = 2.0  # mm from a rim, within which more samples tell how the sky changes along a fillet
+CLOSE_SAMPLES_PER_SQUARE_MILLIMETRE = 20.0
+CLOSE_BOUNDS = (1, 4_000)
 LIFT = 1e-4  # mm above the surface, from which rays start
 SMOOTH = 0.87  # cosine of 30°: triangles that turn by less are of one face
 UNKNOWN = 0.5  # share of the sky of a face on which no sample lies, such as a pin hole's wall
@@ -38,16 +41,50 @@ class Sky:
     known: Flags
 
 
-def exposure(surface: Surface) -> Sky:
+@dataclass(frozen=True, eq=False)
+class Looks:
+    """What was seen from samples: (k,) their triangles, and the share of rays that leave."""
+
+    triangle: Ints
+    share: Floats
+
+
+def look_around(surface: Surface) -> Looks:
+    """From samples all over the surface."""
+    samples = sample(surface, SAMPLES_PER_SQUARE_MILLIMETRE, SAMPLE_BOUNDS)
+    return _looks(surface, np.arange(len(surface.triangles)), samples)
+
+
+def look_closer(surface: Surface, looks: Looks, points: Floats) -> Looks:
+    """The looks, and more from triangles whose middle is `CLOSE` to one of points (k, 3)."""
+    from scipy.spatial import cKDTree
+
+    distance = cKDTree(points).query(surface.corners.mean(axis=1), distance_upper_bound=CLOSE)[0]
+    close = np.flatnonzero(np.isfinite(distance))
+    part = Surface(surface.vertices, surface.triangles[close])
+    if not part.areas.sum() > 0:
+        return looks
+    samples = sample(part, CLOSE_SAMPLES_PER_SQUARE_MILLIMETRE, CLOSE_BOUNDS)
+    more = _looks(surface, close, samples)
+    return Looks(
+        np.concatenate([looks.triangle, more.triangle]), np.concatenate([looks.share, more.share])
+    )
+
+
+def _looks(surface: Surface, sampled: Ints, samples: Samples) -> Looks:
+    """From samples of the triangles `sampled` (k,) of the surface."""
+    share = _escaping(surface, samples.points, samples.normals)
+    return Looks(sampled[samples.triangle], share)
+
+
+def exposure(surface: Surface, looks: Looks) -> Sky:
     """The sky that each triangle sees; one without a sample sees that of the nearest sample.
 
     Nearest along the face, so that no value crosses an edge, where what is seen may jump, and that
     the triangulation of a face does not count.
     """
-    samples = sample(surface, SAMPLES_PER_SQUARE_MILLIMETRE, SAMPLE_BOUNDS)
-    seen = _escaping(surface, samples.points, samples.normals)
-    count = np.bincount(samples.triangle, minlength=len(surface.triangles))
-    total = np.bincount(samples.triangle, weights=seen, minlength=len(surface.triangles))
+    count = np.bincount(looks.triangle, minlength=len(surface.triangles))
+    total = np.bincount(looks.triangle, weights=looks.share, minlength=len(surface.triangles))
     nearest = _nearest_on_face(surface, np.flatnonzero(count))
     known = nearest >= 0
     return Sky(np.where(known, (total / np.maximum(count, 1))[nearest], UNKNOWN), known)

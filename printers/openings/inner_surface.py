@@ -7,6 +7,7 @@ a cut runs around a mouth where it opens to the outside, not around a narrower p
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,7 +15,7 @@ from numpy.typing import NDArray
 
 from printers.arrays import Flags, Floats, Ints
 from printers.measure.surface import Surface, label
-from printers.openings.exposure import Sky, exposure
+from printers.openings.exposure import Sky, exposure, look_around, look_closer
 from printers.tolerances import ROUNDING
 
 DARK = (0.05, 0.15, 0.3)
@@ -56,12 +57,20 @@ def find_cavities(surface: Surface) -> tuple[Cavity, ...]:
     Air that is sealed is none of them: it has no rim. Raises nothing for surfaces that do not
     close, but what is found on them means little.
     """
-    sky = exposure(surface)
+    looks = look_around(surface)
+    sky = exposure(surface, looks)
     for dark in DARK:
         found = _cavities(surface, sky, dark)
         if found:
-            return found
+            closer = exposure(surface, look_closer(surface, looks, _along_rims(surface, found)))
+            return _cavities(surface, closer, dark) or found
     return ()
+
+
+def _along_rims(surface: Surface, cavities: Sequence[Cavity]) -> Floats:
+    """The ends (k, 3) of the edges along all rims."""
+    edges = np.concatenate([rim for cavity in cavities for rim in cavity.rims])
+    return np.asarray(surface.vertices[surface.half_edges[edges]].reshape(-1, 3))
 
 
 def _cavities(surface: Surface, sky: Sky, dark: float) -> tuple[Cavity, ...]:

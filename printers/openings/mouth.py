@@ -10,7 +10,7 @@ from printers.arrays import Floats, Ints
 from printers.errors import PrintersError
 from printers.measure.closest_point import closest_on_segments
 from printers.measure.plugging import frame_of
-from printers.measure.surface import Surface
+from printers.measure.surface import Surface, label
 from printers.measure.widths import shown
 from printers.model import LARGEST_LENGTH, Opening
 from printers.openings.inner_surface import Cavity, rim_of
@@ -122,7 +122,7 @@ def _mouth(surface: Surface, cavity: Cavity, rim: Ints) -> Mouth | None:
         area=area,
         is_round=is_round,
         is_plane=height <= 2 * PLANE,
-        bay=0.0 if is_round else _deepest_bay(flat_start[:, :2]),
+        bay=0.0 if is_round else _bay(surface, cavity, flat_start, (middle, frame)),
         beyond=_farthest(surface, cavity, centre, frame) - float(distances.max()),
     )
 
@@ -161,6 +161,42 @@ def _pin(start: Floats, end: Floats) -> float:
     """Radius of the pin that enters in the middle of the area."""
     middle = np.broadcast_to(_middle_of_area(start, end), start.shape)
     return float(np.linalg.norm(closest_on_segments(start, end, middle) - middle, axis=1).min())
+
+
+def _bay(surface: Surface, cavity: Cavity, rim: Floats, axes: tuple[Floats, Floats]) -> float:
+    """How far, mm, the rim (k, 3) runs in.
+
+    Along a fillet a rim steps from facet to facet. So the wall's section right behind it counts
+    too, unless that is wider than the rim, as it is of the chamber behind.
+    """
+    deepest = _deepest_bay(rim[:, :2])
+    section = _section(surface, cavity, axes, float(rim[:, 2].min()) - ROUNDING)
+    reach = np.linalg.norm(rim[:, :2], axis=1).max() + FACET_TOLERANCE
+    within = len(section) > 2 and np.linalg.norm(section, axis=1).max() <= reach
+    return min(deepest, _deepest_bay(section)) if within else deepest
+
+
+def _section(
+    surface: Surface, cavity: Cavity, axes: tuple[Floats, Floats], height: float
+) -> Floats:
+    """Corners (k, 2) of the cavity's wall, cut at a height along the axis: the curve nearest it."""
+    middle, frame = axes
+    corners = (surface.corners - middle) @ frame
+    above = corners[:, :, 2] > height
+    cut = cavity.triangles & (above.any(axis=1) != above.all(axis=1))
+    first, second, _ = surface.neighbours
+    joined = cut[first] & cut[second]
+    curve = label(len(cut), first[joined], second[joined])
+    at, off = corners[cut], np.full(len(cut), np.inf)
+    off[cut] = np.linalg.norm(at[:, :, :2], axis=2).min(axis=1)
+    if not cut.any():
+        return np.zeros((0, 2))
+    chosen = corners[cut & (curve == curve[off.argmin()])]
+    start, end = chosen.reshape(-1, 3), np.roll(chosen, -1, axis=1).reshape(-1, 3)
+    crosses = (start[:, 2] > height) != (end[:, 2] > height)
+    start, end = start[crosses], end[crosses]
+    share = (height - start[:, 2]) / (end[:, 2] - start[:, 2])
+    return np.asarray(start[:, :2] + share[:, None] * (end - start)[:, :2])
 
 
 def _deepest_bay(rim: Floats) -> float:

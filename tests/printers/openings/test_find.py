@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 import pytest
 from broken_parts import BROKEN
-from manifold3d import Manifold
+from manifold3d import CrossSection, Manifold
 from small_solids import SEGMENTS, arrays, bellows, block, bore, hollow_box
 
 from printers.errors import PrintersError
@@ -269,3 +269,26 @@ def test_holes_for_screws_right_through_are_left_aside() -> None:
     sunk = hole + bore(1.6, (18.0, -1.0, 3.0), 3.0, 1)
     for tool in (hole, sunk):
         assert len(found_on(hollow_box() + END - tool).openings) == 1
+
+
+@pytest.mark.parametrize("times", [1, 2])
+def test_a_port_with_a_fillet_is_found_and_a_crack_into_it_asked_about(times: int) -> None:
+    corner = CrossSection.square((1.5, 0.5)) - CrossSection.circle(0.5, 48).translate((1.5, 0.5))
+    fillet = Manifold.revolve(corner, SEGMENTS).rotate((0, 90, 0)).translate((0, 5.2, 5.2))
+    part = hollow_box() - fillet
+    (opening,) = found_on(part.refine(times)).openings
+    np.testing.assert_allclose(opening.centre[1:], (5.2, 5.2), atol=0.15)
+    assert 0 <= opening.centre[0] <= 0.5 and opening.direction[0] < -0.98
+    assert 0.8 < opening.radius < 1.5
+    for what in (block((1.4, 3.6, 0.1), (-0.1, 5.2, 5.15)), bore(0.2, (-0.1, 6.2, 5.2), 1.4)):
+        with pytest.raises(PrintersError, match="runs into it"):
+            found_on((part - what).refine(times))
+
+
+def test_a_crack_into_a_mouth_in_a_round_wall_is_asked_about() -> None:
+    """Its rim lies in no plane."""
+    wall = Manifold.cylinder(30, 6, 6, SEGMENTS)
+    closed = wall - Manifold.cylinder(27.6, 4.8, 4.8, SEGMENTS).translate((0, 0, 1.2))
+    for crack in (block((12, 3, 0.1), (0, 0, 15)), block((12, 0.1, 3), (0, 0, 15))):
+        with pytest.raises(PrintersError, match="runs into it"):
+            found_on(closed - bore(1.5, (0, 0, 15), 12) - crack)
