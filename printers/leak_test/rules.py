@@ -20,6 +20,7 @@ from printers.leak_test.result import (
     SeamTolerance,
     leak_verdict,
 )
+from printers.measure.widths import shown
 from printers.profile import PrinterProfile
 from printers.profile.judging import judged
 from printers.report import RuleResult, Verdict, pass_or_fail, place
@@ -131,7 +132,7 @@ def _leak_path(ratio: float, leaks: tuple[Leak, ...], line_width: float) -> Rule
 
 
 def _width(leak: Leak) -> str:
-    return f"{'more than ' if leak.at_least else ''}{leak.width:.2f} mm"
+    return f"{'more than ' if leak.at_least else ''}{shown(leak.width)} mm"
 
 
 def _printed_depth(depth: Depth, profile: PrinterProfile) -> RuleResult:

@@ -29,6 +29,7 @@ def check_gcode(options: CheckOptions) -> Answer:
     from bellows_design.progress import on_stderr
     from printers.gcode.reading import read_gcode
     from printers.leak_test.run import leak_test
+    from printers.openings.near import require_apart
 
     named, profile = _named(options), options.profile()
     with on_stderr() as progress:
@@ -38,6 +39,7 @@ def check_gcode(options: CheckOptions) -> Answer:
             opening_on(gcode.beads, each, f"opening {i}" if len(named) > 1 else "opening")
             for i, each in enumerate(named, 1)
         )
+        require_apart(openings)
         progress.stage("leak test")
         found = leak_test(gcode.beads, openings, profile)
     return _answer(options, profile, gcode, openings, found)

@@ -128,6 +128,16 @@ def test_an_opening_may_be_named(bellows: Bellows, tmp_path: Path) -> None:
     assert status == 1 and {"airtightness", "opening_width"} <= failed
 
 
+def test_a_port_with_a_crack_into_it_never_passes(bellows: Bellows, tmp_path: Path) -> None:
+    cracked = hollow_box() - block((1.4, 3.6, 0.3), (-0.1, 5.2, 5.05))
+    path = written(tmp_path / "crack.stl", binary_stl(*arrays(cracked)))
+    status, out, err = bellows("check", path)
+    assert status == 2 and "--opening X,Y,Z,DIAMETER" in err and out == ""
+    status, found = answer(bellows, path, "--opening", "0,5.2,5.2,2")
+    failed = {each["rule"] for each in found["rules"] if each["verdict"] == "fail"}
+    assert status == 1 and failed == {"airtightness"}
+
+
 def test_a_mouth_that_is_not_round_can_be_sealed_and_judged(
     bellows: Bellows, tmp_path: Path
 ) -> None:
@@ -149,7 +159,12 @@ def test_a_mesh_that_does_not_close_fails_by_its_rules(bellows: Bellows, tmp_pat
     [
         (("--set", "bubble_thickness=1"), "a file has no parameters"),
         (("--opening", "1,2"), "X,Y,Z"),
-        (("--opening", "0,5,5,-1"), "diameter"),
+        (("--opening", "0,5,5,-1"), "between 0.05 and 200 mm"),
+        (("--opening", "0,5.2,5.2,1e-300"), "between 0.05 and 200 mm"),
+        (("--opening", "0,5.2,5.2,0.049"), "between 0.05 and 200 mm"),
+        (("--opening", "0,5.2,5.2,201"), "between 0.05 and 200 mm"),
+        (("--opening", "0,5.2,5.2,nan"), "X,Y,Z,DIAMETER"),
+        (("--opening", "0,5.2,5.2", "--opening", "0,5,5"), "name each mouth once"),
         (("--opening", "auto", "--opening", "0,5,5"), "auto alone"),
         (("--up", "up"), "--up is “up”; it must be X, -X, Y, -Y, Z, -Z or a vector"),
         (("--up=",), "--up is “”; it must be"),
