@@ -2,13 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import asdict, dataclass
+import re
+from collections.abc import Callable, Iterable
+from dataclasses import asdict, dataclass, replace
 from typing import Any, Literal
 
 from printers.rule_table import Severity
 
 Verdict = Literal["pass", "info", "warn", "fail"]
+
+Point = tuple[float, float, float]
+"""x, y, z in mm."""
+
+DECIMALS = 6
+"""Of a point: more are rounding."""
+
+_NUMBERS = ("measured", "required", "uncertainty", "tolerance", "margin")
 
 
 @dataclass(frozen=True)
@@ -30,9 +39,11 @@ class RuleResult:
             rule has no such allowance.
         margin: How far `measured` lies on the good side of `required`, in `unit`; it is negative
             in a result that passes within its tolerance. None where either is no number.
-        severity: What it means on this printer not to keep the rule; None until the whole check
-            has said so.
+        severity: What it means on this printer not to keep the rule; None until it is
+            stated.
         source: Where the rule and its limit come from.
+        points: The places that `where` and `message` name as `place` writes them, mm, in the order
+            in which they do; see `at`.
     """
 
     rule: str
@@ -47,6 +58,34 @@ class RuleResult:
     margin: float | None = None
     severity: Severity | None = None
     source: str = ""
+    points: tuple[Point, ...] = ()
+
+    def __post_init__(self) -> None:
+        for name in _NUMBERS:
+            value = getattr(self, name)
+            if isinstance(value, float):
+                object.__setattr__(self, name, value + 0.0)  # no negative zero
+
+    def at(self, *points: Iterable[float]) -> RuleResult:
+        """The result with those of the points that its words name."""
+        words = f"{self.where} {self.message}"
+        found = {each: words.find(place(each)) for each in map(point_of, points)}
+        named = [each for each in found if found[each] >= 0]
+        return replace(self, points=tuple(sorted(named, key=lambda each: found[each])))
+
+    def moved(self, to: Callable[[Point], Point]) -> RuleResult:
+        """The result in other coordinates, its points and the words that name them."""
+        if not self.points:
+            return self
+        points = {each: point_of(to(each)) for each in self.points}
+        words = {place(old): place(new) for old, new in points.items()}
+        old = re.compile("|".join(map(re.escape, words)))
+
+        def said(text: str) -> str:
+            return old.sub(lambda found: words[found[0]], text)
+
+        there = tuple(points.values())
+        return replace(self, where=said(self.where), message=said(self.message), points=there)
 
 
 @dataclass(frozen=True)
@@ -115,6 +154,12 @@ def against(measured: float, required: float, tolerance: float) -> str:
     return f"{-off:.3f} mm less than needed"
 
 
+def point_of(values: Iterable[float]) -> Point:
+    """Three numbers in mm as a point, without the digits that are rounding."""
+    x, y, z = (round(float(value), DECIMALS) + 0.0 for value in values)
+    return x, y, z
+
+
 def place(point: Iterable[float]) -> str:
-    """A point in mm as text, for `where`."""
-    return "(" + ", ".join(f"{value + 0.0:.1f}" for value in point) + ") mm"
+    """A point in mm as text, for `where` and `message`."""
+    return "(" + ", ".join(f"{round(value, 1) + 0.0:.1f}" for value in point_of(point)) + ") mm"

@@ -114,6 +114,8 @@ _ROWS = (
          "volume of the solid, the flow and diameter of the filament"),
     Rule("print_time", "says how long printing takes at least", "info", None, "h",
          "volume of the solid over the volumetric flow at the print speed; travels not counted"),
+    Rule("leak_test", "where a leak test of the G-code is required, it could be run", "fail", None,
+         "", "what was not tested is not known to seal", True),
     Rule("leak_path", "in the G-code every path from the cavity to the outside crosses a bead",
          "fail", None, "of a bead's half width", _SLICED, True),
     Rule("printed_depth", "in the G-code no place is sealed by a whole line less than the profile "

@@ -13,11 +13,11 @@ from printers.leak_test.result import LeakTest
 from printers.leak_test.run import leak_test
 from printers.measure.surface import merged_surface
 from printers.model import Opening, PrintedModel
-from printers.orientation.turning import Turning, turned
+from printers.orientation.turning import Turning, place_in_file, turned
 from printers.profile import PrinterProfile
 from printers.slicing.finding import Slicer
 from printers.slicing.making import Sliced, slice_mesh
-from printers.slicing.placing import Placement
+from printers.slicing.placing import Placement, turned_to_fit
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,7 +34,7 @@ class SlicedCheck:
         return (*self.sliced.notes, *warnings, *self.leaks.notes)
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain values for JSON."""
+        """Plain values for JSON that states rules and notes elsewhere."""
         sliced = self.sliced
         return {
             "slicer": sliced.slicer,
@@ -43,8 +43,7 @@ class SlicedCheck:
             "seconds": sliced.seconds,
             "print_seconds": sliced.gcode.estimated_time,
             "filament_mm": sliced.gcode.filament_length,
-            "notes": list(self.notes),
-            "leak_test": self.leaks.to_dict(),
+            "leak_test": self.leaks.figures(),
         }
 
 
@@ -69,22 +68,13 @@ def check_sliced(
             something out; one sentence.
     """
     standing = turned(model, turning)
-    sliced = slice_mesh(
-        standing.vertices, standing.triangles, profile, slicer, _rotation(standing, profile), folder
-    )
+    rotation = 90.0 if turned_to_fit(standing.vertices, profile) else 0.0
+    sliced = slice_mesh(standing.vertices, standing.triangles, profile, slicer, rotation, folder)
     openings = [_on_bed(opening, sliced.placement) for opening in standing.openings]
     volume = merged_surface(standing.vertices, standing.triangles).volume()
-    back = _to_file(sliced.placement, turning)
+    back = _to_file(sliced.placement, model, turning)
     leaks = leak_test(sliced.gcode.beads, openings, profile, solid_volume=volume, transform=back)
     return SlicedCheck(sliced, leaks)
-
-
-def _rotation(standing: PrintedModel, profile: PrinterProfile) -> float:
-    """A quarter turn where the part's length fits only along the other side of the bed."""
-    length, width = np.ptp(standing.vertices[:, :2], axis=0)
-    room_x, room_y, _ = profile.build_volume
-    fits, fits_turned = length <= room_x and width <= room_y, width <= room_x and length <= room_y
-    return 90.0 if fits_turned and not fits else 0.0
 
 
 def _on_bed(opening: Opening, placement: Placement) -> Opening:
@@ -96,9 +86,10 @@ def _on_bed(opening: Opening, placement: Placement) -> Opening:
     return replace(opening, centre=tuple(start), direction=(x, y, z))
 
 
-def _to_file(placement: Placement, turning: Turning) -> Floats:
+def _to_file(placement: Placement, model: PrintedModel, turning: Turning) -> Floats:
     """(4, 4): from the frame of the G-code to that of the part's file."""
-    corners = placement.to_part(np.vstack([np.zeros(3), np.eye(3)])) @ turning.matrix
+    standing = placement.to_part(np.vstack([np.zeros(3), np.eye(3)]))
+    corners = place_in_file(standing, model, turning)
     matrix = np.eye(4)
     matrix[:3, :3] = (corners[1:] - corners[0]).T
     matrix[:3, 3] = corners[0]

@@ -30,7 +30,9 @@ class Record(BaseModel):
 def _sentence(problem: Mapping[str, Any], record: type[BaseModel]) -> str:
     key = ".".join(str(step) for step in problem["loc"])
     if problem["type"] == "extra_forbidden":
-        return f"unknown key {quoted(key)}; known: {', '.join(record.model_fields)}"
+        home = _home(key, record)
+        known = f"it belongs into [{home}]" if home else f"known: {', '.join(record.model_fields)}"
+        return f"unknown key {quoted(key)}; {known}"
     if problem["type"] == "missing":
         return f"key {key!r} is missing"
     text = str(problem["msg"]).removeprefix("Value error, ")
@@ -45,6 +47,15 @@ def _sentence(problem: Mapping[str, Any], record: type[BaseModel]) -> str:
         return f"{key} is {_shown(given)}{unit}; {expected}"
     within = f", in{unit}" if unit else ""
     return f"{key} is {_shown(given)}; {expected}{within}{_hint(given, problem, unit.strip())}"
+
+
+def _home(key: str, record: type[BaseModel]) -> str:
+    """Name of the table within the record that has such a key; empty if none has."""
+    for name, field in record.model_fields.items():
+        kind = field.annotation
+        if isinstance(kind, type) and issubclass(kind, Record) and key in kind.model_fields:
+            return name
+    return ""
 
 
 _KINDS = {

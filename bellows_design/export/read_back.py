@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 
 from bellows_design.errors import BellowsError
 from bellows_design.export.part import Part
+from printers.reading.stl import FACET
 
 ROUNDING = 1e-5
 """mm, by which a coordinate in the text of a 3MF file may differ; observed are 2e-6."""
@@ -29,7 +30,6 @@ SAME_VOLUME = 1e-6
 """Relative, of the solid read from a STEP file; observed are 7e-9."""
 
 _CORE = "{http://schemas.microsoft.com/3dmanufacturing/core/2015/02}"
-_TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 
 
 class NotThePart(BellowsError):
@@ -63,9 +63,9 @@ def _require(holds: bool, difference: str) -> None:
 def _read_stl(part: Part, content: bytes) -> None:
     count = int.from_bytes(content[80:84], "little")
     wanted = len(part.mesh.triangles)
-    whole = len(content) == 84 + count * _TRIANGLE.itemsize
+    whole = len(content) == 84 + count * FACET.itemsize
     _require(whole and count == wanted, f"it holds {count} triangles instead of {wanted}")
-    corners = np.frombuffer(content, _TRIANGLE, offset=84)["corners"]
+    corners = np.frombuffer(content, FACET, offset=84)["corners"]
     same = np.array_equal(corners, part.mesh.vertices[part.mesh.triangles])
     _require(same, "its triangles are not the checked ones")
 

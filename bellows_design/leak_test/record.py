@@ -19,6 +19,9 @@ from printers.report import RuleResult
 RULE = "leak_test"
 """Name of the rule where the test itself is missing."""
 
+SWITCHED_OFF = "the design switches it off"
+"""Why there is no test, as the end of a sentence."""
+
 Result = Literal["pass", "warn", "fail", "not run"]
 
 

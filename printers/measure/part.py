@@ -66,7 +66,7 @@ class MeasuredPart:
     @cached_property
     def opened(self) -> OpenCavity | None:
         """The cavity, where it leaks although the openings are plugged, and the leaks are found."""
-        if not self.sealing.leaks:
+        if not self.sealing.may_leak:
             return None
         return find_leaks(self.sealing.closed.surface, self.sealing.openings)
 

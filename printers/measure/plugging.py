@@ -36,11 +36,19 @@ class Sealing:
         return (self.closed.surface.euler_characteristic() - before) // 2
 
     @property
-    def leaks(self) -> bool:
-        """Whether the plugs closed openings of the part, and yet no cavity closes."""
+    def may_leak(self) -> bool:
+        """Whether the plugs met the part, and yet no cavity closes."""
         joined = len(self.closed.bodies) <= len(self.part.bodies)
         closed = bool(self.part.voids or self.closed.voids)
-        return bool(self.openings) and joined and not closed and self.openings_closed > 0
+        return bool(self.openings) and joined and not closed
+
+    @property
+    def leaks(self) -> bool:
+        """Whether the plugs closed openings of the part, and yet no cavity closes.
+
+        A plug beside which a crack is open closes none.
+        """
+        return self.may_leak and self.openings_closed > 0
 
 
 def seal(part: Shells, openings: Sequence[Opening]) -> Sealing:

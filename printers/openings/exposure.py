@@ -6,28 +6,88 @@ ground of a groove some.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from printers.arrays import Flags, Floats, Ints
 from printers.measure.box_tree import first_hits
-from printers.measure.samples import sample
+from printers.measure.samples import Samples, sample
 from printers.measure.surface import Surface
 
 RAYS = 48
 SAMPLES_PER_SQUARE_MILLIMETRE = 1.0
 SAMPLE_BOUNDS = (2_000, 6_000)
+CLOSE = 2.0  # mm from a rim, within which more samples tell how the sky changes along a fillet
+CLOSE_SAMPLES_PER_SQUARE_MILLIMETRE = 20.0
+CLOSE_BOUNDS = (1, 4_000)
 LIFT = 1e-4  # mm above the surface, from which rays start
 SMOOTH = 0.87  # cosine of 30°: triangles that turn by less are of one face
-SPREADING = 200  # steps of neighbours at most over which triangles without a sample are filled
+UNKNOWN = 0.5  # share of the sky of a face on which no sample lies, such as a pin hole's wall
 
 
-def exposure(surface: Surface) -> Floats:
-    """(m,): the share of rays into the half-space above each triangle that leave the part."""
+@dataclass(frozen=True, eq=False)
+class Sky:
+    """What the triangles of a surface see.
+
+    Attributes:
+        share: Of the rays into the half-space above each triangle, those that leave the part.
+            *Shape:* `(m,)`
+        known: Whether a sample lies on the triangle's face; else `share` is `UNKNOWN`.
+            *Shape:* `(m,)`
+    """
+
+    share: Floats
+    known: Flags
+
+
+@dataclass(frozen=True, eq=False)
+class Looks:
+    """What was seen from samples: (k,) their triangles, and the share of rays that leave."""
+
+    triangle: Ints
+    share: Floats
+
+
+def look_around(surface: Surface) -> Looks:
+    """From samples all over the surface."""
     samples = sample(surface, SAMPLES_PER_SQUARE_MILLIMETRE, SAMPLE_BOUNDS)
-    seen = _escaping(surface, samples.points, samples.normals)
-    count = np.bincount(samples.triangle, minlength=len(surface.triangles))
-    total = np.bincount(samples.triangle, weights=seen, minlength=len(surface.triangles))
-    return _filled(surface, total / np.maximum(count, 1), count > 0)
+    return _looks(surface, np.arange(len(surface.triangles)), samples)
+
+
+def look_closer(surface: Surface, looks: Looks, points: Floats) -> Looks:
+    """The looks, and more from triangles whose middle is `CLOSE` to one of points (k, 3)."""
+    from scipy.spatial import cKDTree
+
+    distance = cKDTree(points).query(surface.corners.mean(axis=1), distance_upper_bound=CLOSE)[0]
+    close = np.flatnonzero(np.isfinite(distance))
+    part = Surface(surface.vertices, surface.triangles[close])
+    if not part.areas.sum() > 0:
+        return looks
+    samples = sample(part, CLOSE_SAMPLES_PER_SQUARE_MILLIMETRE, CLOSE_BOUNDS)
+    more = _looks(surface, close, samples)
+    return Looks(
+        np.concatenate([looks.triangle, more.triangle]), np.concatenate([looks.share, more.share])
+    )
+
+
+def _looks(surface: Surface, sampled: Ints, samples: Samples) -> Looks:
+    """From samples of the triangles `sampled` (k,) of the surface."""
+    share = _escaping(surface, samples.points, samples.normals)
+    return Looks(sampled[samples.triangle], share)
+
+
+def exposure(surface: Surface, looks: Looks) -> Sky:
+    """The sky that each triangle sees; one without a sample sees that of the nearest sample.
+
+    Nearest along the face, so that no value crosses an edge, where what is seen may jump, and that
+    the triangulation of a face does not count.
+    """
+    count = np.bincount(looks.triangle, minlength=len(surface.triangles))
+    total = np.bincount(looks.triangle, weights=looks.share, minlength=len(surface.triangles))
+    nearest = _nearest_on_face(surface, np.flatnonzero(count))
+    known = nearest >= 0
+    return Sky(np.where(known, (total / np.maximum(count, 1))[nearest], UNKNOWN), known)
 
 
 def _escaping(surface: Surface, points: Floats, normals: Floats) -> Floats:
@@ -50,24 +110,19 @@ def _directions() -> Floats:
     return np.stack([beside * np.cos(turn), beside * np.sin(turn), step], axis=1)
 
 
-def _filled(surface: Surface, values: Floats, known: Flags) -> Floats:
-    """The values, unknown ones from the known ones beside them: on the same face, then on any."""
+def _nearest_on_face(surface: Surface, sampled: Ints) -> Ints:
+    """(m,): of the triangles `sampled` (k,) the nearest from middle to middle along the face; -1
+    where none is on it."""
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import dijkstra
+
     first, second, _ = surface.neighbours
-    turn = np.einsum("ij,ij->i", surface.normals[first], surface.normals[second])
-    for pairs in (np.flatnonzero(turn > SMOOTH), np.arange(len(first))):
-        values, known = _spread(values, known, first[pairs], second[pairs])
-    return np.where(known, values, 0.5)
-
-
-def _spread(values: Floats, known: Flags, first: Ints, second: Ints) -> tuple[Floats, Flags]:
-    """Values and which are known, after means of neighbours have spread as far as they go."""
-    one, other = np.concatenate([first, second]), np.concatenate([second, first])
-    for _ in range(SPREADING):
-        giving = known[other] & ~known[one]
-        if not giving.any():
-            break
-        count = np.bincount(one[giving], minlength=len(values))
-        total = np.bincount(one[giving], weights=values[other[giving]], minlength=len(values))
-        values = np.where(count > 0, total / np.maximum(count, 1), values)
-        known = known | (count > 0)
-    return values, known
+    smooth = np.einsum("ij,ij->i", surface.normals[first], surface.normals[second]) > SMOOTH
+    first, second, count = first[smooth], second[smooth], len(surface.triangles)
+    middle = surface.corners.mean(axis=1)
+    steps = np.maximum(np.linalg.norm(middle[first] - middle[second], axis=1), LIFT)
+    graph = coo_array((steps, (first, second)), shape=(count, count)).tocsr()
+    found = dijkstra(
+        graph, directed=False, indices=sampled, min_only=True, return_predecessors=True
+    )
+    return np.where(np.isfinite(found[0]), found[2], -1)

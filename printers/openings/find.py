@@ -2,7 +2,8 @@
 
 A pin hole beside the port is no second opening: the widest mouth is the opening where it is
 `CLEARLY_WIDER` than the next, and what else is open is left to the rule `airtightness`, which names
-it as a leak. Likewise blind holes are left aside where they hold less than `MINOR` of the air.
+it as a leak. Likewise holes are left aside, such as those of screws, where they are no wider behind
+than at their mouth and hold less than `MINOR` of the air; a chamber of its own never is.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from printers.measure.surface import Surface
 from printers.model import Opening
 from printers.openings.inner_surface import Cavity, find_cavities
 from printers.openings.mouth import Mouth, mouths_of
+from printers.tolerances import FACET_TOLERANCE
 
 CLEARLY_WIDER = 2.0
 """Ratio from which the widest mouth is the opening, and the others are leaks.
@@ -24,7 +26,8 @@ Of the pins that enter: a slit has the area of a port and lets no tube in.
 """
 
 MINOR = 0.1
-"""Share of the largest cavity's air below which another one is a blind hole, such as a screw's."""
+"""Share of the largest cavity's air below which a hole is left aside, such as a screw's. A
+convention: a larger one is asked about."""
 
 MOST_NAMED = 8
 NAME = "opening"
@@ -94,18 +97,27 @@ def only_opening(mouths: Mouths) -> FoundOpenings:
             f"the cavity has {1 + len(others)} mouths: {_listed([first, *others])}; name what is "
             "meant to be open with --opening X,Y,Z, once for each"
         )
+    first.require_port()
     return FoundOpenings((first.opening(NAME),), _notes(mouths, first, others))
 
 
 def _require_one_cavity(mouths: Mouths) -> None:
-    major = [each for each, volume in zip(mouths.of_cavities, mouths.volumes, strict=True)
-             if volume >= MINOR * mouths.volumes[0]]  # fmt: skip
+    first, *others = mouths.of_cavities
+    shares = [volume / mouths.volumes[0] for volume in mouths.volumes[1:]]
+    pairs = zip(others, shares, strict=True)
+    major = [first, *(each for each, share in pairs if not _is_minor(each, share))]
     if len(major) > 1 and mouths.bodies == 1:  # several bodies fail for that by a rule
         places = _listed([each[0] for each in major])
         raise PrintersError(
             f"{len(major)} cavities are open to the outside: {places}; name what is meant to be "
             "open with --opening X,Y,Z, once for each"
         )
+
+
+def _is_minor(mouths: Sequence[Mouth], share: float) -> bool:
+    """Whether a cavity with that share of the largest one's air is a small hole, such as a screw's:
+    no wider behind than at one of its mouths."""
+    return share < MINOR and any(mouth.beyond <= 2 * FACET_TOLERANCE for mouth in mouths)
 
 
 def _notes(mouths: Mouths, first: Mouth, others: Sequence[Mouth]) -> tuple[str, ...]:
@@ -119,7 +131,7 @@ def _notes(mouths: Mouths, first: Mouth, others: Sequence[Mouth]) -> tuple[str, 
         )
     if len(mouths.of_cavities) > 1:
         blind = [each[0] for each in mouths.of_cavities[1:]]
-        notes.append(f"other cavities and blind holes left aside: {_listed(blind)}")
+        notes.append(f"holes without a chamber left aside: {_listed(blind)}")
     return tuple(notes)
 
 

@@ -7,6 +7,7 @@ a cut runs around a mouth where it opens to the outside, not around a narrower p
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,7 +15,8 @@ from numpy.typing import NDArray
 
 from printers.arrays import Flags, Floats, Ints
 from printers.measure.surface import Surface, label
-from printers.openings.exposure import exposure
+from printers.openings.exposure import Sky, exposure, look_around, look_closer
+from printers.tolerances import ROUNDING
 
 DARK = (0.05, 0.15, 0.3)
 """Shares of the sky below which a triangle is taken as inside: the next where the one before finds
@@ -29,7 +31,7 @@ DEEP = 4.0
 like half a ball has 2, a slit at most 3, whatever its depth, a tube of one diameter 5."""
 
 DARKEST = 0.1  # share of the sky added to every edge's: no edge costs more than ten times another
-UNITS_PER_MILLIMETRE = 100  # the maximum flow counts in whole numbers
+LARGEST_FLOW = 2**30  # the maximum flow counts in whole numbers of 32 bits
 SOURCE, DRAIN = 0, 1
 
 
@@ -55,19 +57,27 @@ def find_cavities(surface: Surface) -> tuple[Cavity, ...]:
     Air that is sealed is none of them: it has no rim. Raises nothing for surfaces that do not
     close, but what is found on them means little.
     """
-    sky = exposure(surface)
+    looks = look_around(surface)
+    sky = exposure(surface, looks)
     for dark in DARK:
         found = _cavities(surface, sky, dark)
         if found:
-            return found
+            closer = exposure(surface, look_closer(surface, looks, _along_rims(surface, found)))
+            return _cavities(surface, closer, dark) or found
     return ()
 
 
-def _cavities(surface: Surface, sky: Floats, dark: float) -> tuple[Cavity, ...]:
-    inside, outside = sky < dark, sky > BRIGHT
+def _along_rims(surface: Surface, cavities: Sequence[Cavity]) -> Floats:
+    """The ends (k, 3) of the edges along all rims."""
+    edges = np.concatenate([rim for cavity in cavities for rim in cavity.rims])
+    return np.asarray(surface.vertices[surface.half_edges[edges]].reshape(-1, 3))
+
+
+def _cavities(surface: Surface, sky: Sky, dark: float) -> tuple[Cavity, ...]:
+    inside, outside = sky.known & (sky.share < dark), sky.known & (sky.share > BRIGHT)
     if not (inside.any() and outside.any()):
         return ()
-    inner = _inner_side(surface, sky, inside, outside)
+    inner = _inner_side(surface, sky.share, inside, outside)
     pieces = _pieces(surface, inner)
     cavities = (_cavity(surface, pieces == number) for number in np.unique(pieces[inner]))
     found = [cavity for cavity in cavities if cavity is not None]
@@ -80,11 +90,17 @@ def _inner_side(surface: Surface, sky: Floats, inside: Flags, outside: Flags) ->
     node = np.arange(len(sky)) + 2
     node[inside], node[outside] = SOURCE, DRAIN
     cost = edge_lengths(surface, half_edge) / (DARKEST + np.maximum(sky[first], sky[second]))
-    capacity = np.ceil(cost * UNITS_PER_MILLIMETRE).astype(np.int32)
     a, b = node[first], node[second]
     crossing = a != b
-    reached = _source_side(len(sky) + 2, a[crossing], b[crossing], capacity[crossing])
+    capacity = _whole(cost[crossing])
+    reached = _source_side(len(sky) + 2, a[crossing], b[crossing], capacity)
     return np.asarray(reached[node])
+
+
+def _whole(costs: Floats) -> NDArray[np.int32]:
+    """(k,): costs in whole units, as fine as they can be while all of them add up to a flow."""
+    unit = max(float(costs.sum()), ROUNDING) / LARGEST_FLOW
+    return np.asarray(np.maximum(np.rint(costs / unit), 1).astype(np.int32))
 
 
 def _source_side(count: int, a: Ints, b: Ints, capacity: NDArray[np.int32]) -> Flags:

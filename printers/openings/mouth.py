@@ -7,9 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from printers.arrays import Floats, Ints
+from printers.errors import PrintersError
 from printers.measure.closest_point import closest_on_segments
 from printers.measure.plugging import frame_of
-from printers.measure.surface import Surface
+from printers.measure.surface import Surface, label
+from printers.measure.widths import shown
 from printers.model import LARGEST_LENGTH, Opening
 from printers.openings.inner_surface import Cavity, rim_of
 from printers.report import place
@@ -19,6 +21,10 @@ ENTRY = 0.5  # mm behind the rim over which a pin of the mouth's diameter must f
 LEAST_PIN = 0.05  # mm: where less enters, something stands in the mouth, as `opening_width` says
 DIGITS = 6  # of a coordinate in mm: more are noise of single precision
 PLANE = 0.05  # mm: a rim this close to a plane is one
+LONGEST = 2.5
+"""Ratio of reach to radius up to which a mouth is a port, beyond it a slit. A slot twice as long as
+it is wide has 2.24, a square 1.41. A convention: what is longer is asked about."""
+MOST_HULL_CORNERS = 1000  # of the line around a rim: more are finer than its bays are judged
 
 
 @dataclass(frozen=True)
@@ -33,6 +39,10 @@ class Mouth:
         area: Of the rim as seen along the axis, mm².
         is_round: Whether the rim is a circle, within the tolerance of facets.
         is_plane: Whether it lies in a plane; a hole in a round wall does not.
+        bay: How far the rim runs in from the shortest line around it, mm: where a crack, or
+            another hole, runs into the mouth. 0 if it is round.
+        beyond: How much farther than the rim the cavity's wall lies from the axis, mm: nothing if
+            it is a plain hole, such as a screw's.
     """
 
     centre: tuple[float, float, float]
@@ -42,6 +52,14 @@ class Mouth:
     area: float
     is_round: bool
     is_plane: bool
+    bay: float = 0.0
+    beyond: float = 0.0
+
+    @property
+    def is_port(self) -> bool:
+        """Whether a plug may fill all of it: it is no slit, and nothing runs into it."""
+        is_slit = self.reach > LONGEST * self.radius
+        return self.is_round or not (is_slit or self.bay > FACET_TOLERANCE)
 
     @property
     def diameter(self) -> float:
@@ -53,13 +71,22 @@ class Mouth:
         reach = None if self.is_round else self.reach
         return Opening(name, self.centre, self.direction, self.radius, reach)
 
+    def require_port(self) -> None:
+        """Raise PrintersError if a plug of the whole mouth would hide a crack that runs into it."""
+        if not self.is_port:
+            raise PrintersError(
+                f"the mouth at {self.described()} is a slit, or a crack or another hole runs into "
+                "it; name what is meant to be open with --opening X,Y,Z,DIAMETER in mm: what is "
+                "open beside that is then a leak"
+            )
+
     def described(self) -> str:
         """Its place and width, for people."""
-        width = f"{self.diameter:.2f} mm wide"
+        width = f"{shown(self.diameter)} mm wide"
         if not self.is_round:
             width = (
-                f"not round: {2 * self.radius:.2f} to {2 * self.reach:.2f} mm wide, "
-                f"its area that of {self.diameter:.2f} mm"
+                f"not round: {shown(2 * self.radius)} to {shown(2 * self.reach)} mm wide, "
+                f"its area that of {shown(self.diameter)} mm"
             )
         return f"{place(self.centre)} ({width})"
 
@@ -95,6 +122,8 @@ def _mouth(surface: Surface, cavity: Cavity, rim: Ints) -> Mouth | None:
         area=area,
         is_round=is_round,
         is_plane=height <= 2 * PLANE,
+        bay=0.0 if is_round else _bay(surface, cavity, flat_start, (middle, frame)),
+        beyond=_farthest(surface, cavity, centre, frame) - float(distances.max()),
     )
 
 
@@ -132,6 +161,62 @@ def _pin(start: Floats, end: Floats) -> float:
     """Radius of the pin that enters in the middle of the area."""
     middle = np.broadcast_to(_middle_of_area(start, end), start.shape)
     return float(np.linalg.norm(closest_on_segments(start, end, middle) - middle, axis=1).min())
+
+
+def _bay(surface: Surface, cavity: Cavity, rim: Floats, axes: tuple[Floats, Floats]) -> float:
+    """How far, mm, the rim (k, 3) runs in.
+
+    Along a fillet a rim steps from facet to facet. So the wall's section right behind it counts
+    too, unless that is wider than the rim, as it is of the chamber behind.
+    """
+    deepest = _deepest_bay(rim[:, :2])
+    section = _section(surface, cavity, axes, float(rim[:, 2].min()) - ROUNDING)
+    reach = np.linalg.norm(rim[:, :2], axis=1).max() + FACET_TOLERANCE
+    within = len(section) > 2 and np.linalg.norm(section, axis=1).max() <= reach
+    return min(deepest, _deepest_bay(section)) if within else deepest
+
+
+def _section(
+    surface: Surface, cavity: Cavity, axes: tuple[Floats, Floats], height: float
+) -> Floats:
+    """Corners (k, 2) of the cavity's wall, cut at a height along the axis: the curve nearest it."""
+    middle, frame = axes
+    corners = (surface.corners - middle) @ frame
+    above = corners[:, :, 2] > height
+    cut = cavity.triangles & (above.any(axis=1) != above.all(axis=1))
+    first, second, _ = surface.neighbours
+    joined = cut[first] & cut[second]
+    curve = label(len(cut), first[joined], second[joined])
+    at, off = corners[cut], np.full(len(cut), np.inf)
+    off[cut] = np.linalg.norm(at[:, :, :2], axis=2).min(axis=1)
+    if not cut.any():
+        return np.zeros((0, 2))
+    chosen = corners[cut & (curve == curve[off.argmin()])]
+    start, end = chosen.reshape(-1, 3), np.roll(chosen, -1, axis=1).reshape(-1, 3)
+    crosses = (start[:, 2] > height) != (end[:, 2] > height)
+    start, end = start[crosses], end[crosses]
+    share = (height - start[:, 2]) / (end[:, 2] - start[:, 2])
+    return np.asarray(start[:, :2] + share[:, None] * (end - start)[:, :2])
+
+
+def _deepest_bay(rim: Floats) -> float:
+    """How far, mm, a corner of the rim (k, 2) lies within the convex hull of all."""
+    from scipy.spatial import ConvexHull
+
+    around = ConvexHull(rim).vertices  # anticlockwise
+    start = rim[around[:: 1 + len(around) // MOST_HULL_CORNERS]]
+    side = np.roll(start, -1, axis=0) - start
+    inwards = np.column_stack([-side[:, 1], side[:, 0]]) / np.linalg.norm(side, axis=1)[:, None]
+    within = np.full(len(rim), np.inf)
+    for corner, normal in zip(start, inwards, strict=True):
+        within = np.minimum(within, (rim - corner) @ normal)
+    return float(within.max())
+
+
+def _farthest(surface: Surface, cavity: Cavity, centre: Floats, frame: Floats) -> float:
+    """Greatest distance, mm, of the cavity's wall from the axis."""
+    across = (surface.corners[cavity.triangles] - centre) @ frame[:, :2]
+    return float(np.linalg.norm(across, axis=2).max())
 
 
 def _room(surface: Surface, cavity: Cavity, centre: Floats, axis: Floats, frame: Floats) -> float:

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from itertools import combinations
+
 import numpy as np
 
 from printers.arrays import Floats
@@ -28,10 +31,12 @@ def named_opening(surface: Surface, mouths: Mouths, named: Named, name: str) -> 
     """The mouth that was found nearest to a point, or one made of the point and a diameter there.
 
     A diameter that is given counts, whatever the mouth's is: `opening_width` then holds the mouth
-    against it.
+    against it. Of a mouth into which a crack runs, that much around the point is the opening, and
+    the crack is left open.
 
     Raises:
-        PrintersError: No mouth is near and no diameter given, or no surface is near.
+        PrintersError: No diameter is given, and no mouth is near or a crack runs into it; or no
+            surface is near.
     """
     point, diameter = np.array(named[:3]), named[3]
     near = min(mouths.all, key=lambda mouth: _distance(mouth, point), default=None)
@@ -59,11 +64,34 @@ def _snapped(mouth: Mouth, point: Floats, diameter: float | None, name: str) -> 
     off = _distance(mouth, point)
     note = f"{name}: the mouth at {mouth.described()}, {off:.2f} mm from the point given"
     if diameter is None:
+        mouth.require_port()
         return FoundOpenings((mouth.opening(name),), (note,))
     radius = diameter / 2
+    if not mouth.is_port:
+        opening = Opening(name, _onto(mouth, point), mouth.direction, radius)
+        return FoundOpenings((opening,), (f"{note}; {diameter:g} mm around that are the opening",))
     reach = mouth.reach if mouth.reach > radius else None
     opening = Opening(name, mouth.centre, mouth.direction, radius, reach)
     return FoundOpenings((opening,), (f"{note}; declared as {diameter:g} mm wide",))
+
+
+def require_apart(openings: Sequence[Opening]) -> None:
+    """Raise PrintersError if two openings are one mouth: their pins, side by side, overlap."""
+    for one, other in combinations(openings, 2):
+        apart = float(np.linalg.norm(np.subtract(one.centre, other.centre)))
+        alike = float(np.dot(one.direction, other.direction)) > 0
+        if alike and apart < one.radius + other.radius:
+            raise PrintersError(
+                f"{one.name} at {place(one.centre)} and {other.name} at {place(other.centre)} "
+                f"are the same mouth, or overlap; name each mouth once"
+            )
+
+
+def _onto(mouth: Mouth, point: Floats) -> tuple[float, float, float]:
+    """The point moved along the mouth's axis into the plane of its centre."""
+    axis = np.asarray(mouth.direction)
+    x, y, z = (float(value) for value in point - ((point - mouth.centre) @ axis) * axis)
+    return x, y, z
 
 
 def _made(surface: Surface, point: Floats, diameter: float, name: str) -> FoundOpenings:

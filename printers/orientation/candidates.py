@@ -18,6 +18,10 @@ ALIKE = 0.01
 
 SAME_FACE = 1e-3  # of a unit normal: facets of the hull that differ less lie on one face
 LEAST_CONTACT = 0.02  # of the footprint: less, such as a facet of a fillet, carries nothing
+MOST_FACES = 200
+"""That are looked at: more than have a fiftieth of a footprint each, also around a long bar."""
+
+MOST_PIECES = 4  # into which the rounding of normals may part one face
 FLAT = 1e-3  # mm above the bed
 BANDS = 8  # of slope, by which two orientations are compared
 
@@ -60,19 +64,43 @@ def _counted(stance: Stance) -> Stance:
 
 def _on_faces(surface: Surface) -> list[Turning]:
     """The turnings onto faces of the hull, those with the largest contact first."""
+    turnings = onto_faces(surface.vertices)
+    contacts = np.array([_contact(surface, turning) for turning in turnings])
+    footprints = np.array([_footprint(surface.vertices, turning) for turning in turnings])
+    order = np.argsort(-contacts, kind="stable")
+    return [turnings[i] for i in order if contacts[i] > LEAST_CONTACT * footprints[i]]
+
+
+def onto_faces(vertices: Floats) -> list[Turning]:
+    """The turnings of (n, 3) onto those faces of their hull that may carry a part.
+
+    A part touches the bed with no more than the face it lies on: small faces, as most of a round
+    part's are, drop out before the part itself is looked at.
+    """
     from scipy.spatial import ConvexHull, QhullError
 
     try:
-        hull = ConvexHull(surface.vertices)
+        hull = ConvexHull(vertices)
     except QhullError:  # all in one plane
         return []
-    normals = hull.equations[:, :3]
-    grid = np.unique(np.round(normals / SAME_FACE).astype(np.int64), axis=0, return_index=True)[1]
-    turnings = [_down(normals[index]) for index in grid]
-    contacts = np.array([_contact(surface, turning) for turning in turnings])
-    footprints = np.array([_footprint(surface, turning) for turning in turnings])
-    order = np.argsort(-contacts, kind="stable")
-    return [turnings[i] for i in order if contacts[i] > LEAST_CONTACT * footprints[i]]
+    normals, areas = _faces(hull.equations[:, :3], vertices[hull.simplices])
+    largest = np.sort(np.argsort(-areas, kind="stable")[:MOST_FACES])
+    turnings = [_down(normal) for normal in normals[largest]]
+    corners, least = vertices[hull.vertices], LEAST_CONTACT / MOST_PIECES
+    return [
+        turning
+        for turning, area in zip(turnings, areas[largest], strict=True)
+        if area >= least * _footprint(corners, turning)
+    ]
+
+
+def _faces(normals: Floats, corners: Floats) -> tuple[Floats, Floats]:
+    """Normals (k, 3) and areas (k,) of the faces that triangles (m, 3), (m, 3, 3) make up."""
+    first, second = np.diff(corners, axis=1).swapaxes(0, 1)
+    areas = np.linalg.norm(np.cross(first, second), axis=1) / 2
+    bins = np.round(normals / SAME_FACE).astype(np.int64)
+    _, one, face = np.unique(bins, axis=0, return_index=True, return_inverse=True)
+    return normals[one], np.bincount(face.ravel(), areas).astype(np.float64)
 
 
 def _down(normal: Floats) -> Turning:
@@ -88,9 +116,9 @@ def _contact(surface: Surface, turning: Turning) -> float:
     return float(-(surface.area_vectors[low] @ np.array(turning.up)).sum())
 
 
-def _footprint(surface: Surface, turning: Turning) -> float:
-    """Of the rectangle around it on the bed, mm²."""
-    return float(np.prod(np.ptp(surface.vertices @ turning.matrix[:2].T, axis=0)))
+def _footprint(vertices: Floats, turning: Turning) -> float:
+    """Of the rectangle around (n, 3) on the bed, mm²."""
+    return float(np.prod(np.ptp(vertices @ turning.matrix[:2].T, axis=0)))
 
 
 def _measured(surface: Surface, turning: Turning) -> tuple[Stance, Floats]:

@@ -98,4 +98,4 @@ def _judged(
     if holds:
         report = judge(placed)
     layers = max(1, round(stance.height / profile.layer_height))
-    return JudgedStance(stance, in_file(report, stance.turning), holds, layers)
+    return JudgedStance(stance, in_file(report, model, stance.turning), holds, layers)

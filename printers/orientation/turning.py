@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import re
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -10,7 +10,7 @@ import numpy as np
 from printers.arrays import Floats
 from printers.errors import PrintersError
 from printers.model import Opening, PrintedModel
-from printers.report import PrintabilityReport, place
+from printers.report import Point, PrintabilityReport, point_of
 
 AXES = {
     "X": (1.0, 0.0, 0.0),
@@ -20,7 +20,6 @@ AXES = {
     "Z": (0.0, 0.0, 1.0),
     "-Z": (0.0, 0.0, -1.0),
 }
-_PLACE = re.compile(r"\((-?\d+\.\d), (-?\d+\.\d), (-?\d+\.\d)\) mm")
 
 
 @dataclass(frozen=True)
@@ -33,13 +32,18 @@ class Turning:
     def matrix(self) -> Floats:
         """(3, 3): times a place in the file it gives the place on the bed.
 
-        The turn by the least angle; upside down it turns about x.
+        The turn by the least angle, about a level axis; upside down it turns about x.
         """
         x, y, z = self.up
-        if z < -1 + 1e-12:
-            return np.diag([1.0, -1.0, -1.0])
-        skew = np.array([[0.0, 0.0, -x], [0.0, 0.0, -y], [x, y, 0.0]])
-        return np.asarray(np.eye(3) + skew + skew @ skew / (1 + z)) + 0.0
+        level = math.hypot(x, y)
+        u, v = (x / level, y / level) if level else (0.0, 1.0)
+        less = 1 - z  # 1 + z would lose its digits near -z
+        matrix = [
+            [1 - u * u * less, -u * v * less, -x],
+            [-u * v * less, 1 - v * v * less, -y],
+            [x, y, z],
+        ]
+        return np.array(matrix) + 0.0
 
     @property
     def name(self) -> str:
@@ -78,20 +82,28 @@ def parse_up(text: str) -> Turning:
 
 
 def turned(model: PrintedModel, turning: Turning) -> PrintedModel:
-    """The part as it stands with the direction upwards. A turned part has no cross-section."""
+    """The part as it stands with the direction upwards, its lowest point at z = 0.
+
+    A part that stands as in its file stays as it is. A turned part has no cross-section.
+    """
     if turning.is_none:
         return model
-    openings = tuple(_turned_opening(opening, turning.matrix) for opening in model.openings)
-    return replace(
-        model,
-        vertices=model.vertices @ turning.matrix.T,
-        openings=openings,
-        cross_section_limit=None,
-    )
+    vertices = model.vertices @ turning.matrix.T + lift(model, turning)
+    openings = tuple(_turned_opening(each, model, turning) for each in model.openings)
+    return replace(model, vertices=vertices, openings=openings, cross_section_limit=None)
 
 
-def _turned_opening(opening: Opening, matrix: Floats) -> Opening:
-    (x, y, z), (dx, dy, dz) = matrix @ opening.centre, matrix @ opening.direction
+def lift(model: PrintedModel, turning: Turning) -> Floats:
+    """(3,) mm by which the turned part is moved up onto the bed."""
+    if turning.is_none:
+        return np.zeros(3)
+    heights = model.vertices @ np.array(turning.up)
+    return np.array([0.0, 0.0, -heights[model.triangles].min()])
+
+
+def _turned_opening(opening: Opening, model: PrintedModel, turning: Turning) -> Opening:
+    x, y, z = turning.matrix @ opening.centre + lift(model, turning)
+    dx, dy, dz = turning.matrix @ opening.direction
     return replace(
         opening,
         centre=(float(x), float(y), float(z)),
@@ -99,28 +111,24 @@ def _turned_opening(opening: Opening, matrix: Floats) -> Opening:
     )
 
 
-def in_file(report: PrintabilityReport, turning: Turning) -> PrintabilityReport:
-    """The report on a turned part, its places in the coordinates of the file.
+def place_in_file(points: Floats, model: PrintedModel, turning: Turning) -> Floats:
+    """Places (..., 3) on the turned part in the coordinates of its file, where it is `model`."""
+    if turning.is_none:
+        return points
+    return np.asarray((points - lift(model, turning)) @ turning.matrix)
+
+
+def in_file(
+    report: PrintabilityReport, model: PrintedModel, turning: Turning
+) -> PrintabilityReport:
+    """The report on the turned part, its places in the coordinates of the file.
 
     Heights z above the bed in its sentences stay what they are.
     """
+
+    def back(point: Point) -> Point:
+        return point_of(place_in_file(np.array(point), model, turning))
+
     if turning.is_none:
         return report
-    rules = tuple(
-        replace(
-            rule,
-            where=places_in_file(rule.where, turning),
-            message=places_in_file(rule.message, turning),
-        )
-        for rule in report.rules
-    )
-    return replace(report, rules=rules)
-
-
-def places_in_file(text: str, turning: Turning) -> str:
-    """The text, each place in it, as `place` writes them, turned back."""
-
-    def back(found: re.Match[str]) -> str:
-        return place(turning.matrix.T @ np.array([float(each) for each in found.groups()]))
-
-    return _PLACE.sub(back, text)
+    return replace(report, rules=tuple(rule.moved(back) for rule in report.rules))

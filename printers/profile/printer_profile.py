@@ -9,7 +9,7 @@ from pydantic import Field, field_validator, model_validator
 
 from printers.profile.filament import Filament
 from printers.profile.quantities import Side, Text, quantity
-from printers.profile.slicer_advice import SlicerAdvice
+from printers.profile.slicer_advice import SlicerAdvice, refuse_earlier_flows
 from printers.rule_table import RULES, Severity, severity_problem
 from printers.validation import Record
 
@@ -102,6 +102,13 @@ class PrinterProfile(Record):
         """Plastic laid down at the print speed, mm³/s."""
         section = self.line_width * self.layer_height * self.slicer.flow / 100
         return section * self.slicer.print_speed
+
+    @model_validator(mode="before")
+    @classmethod
+    def _written_for_an_earlier_version(cls, table: Any) -> Any:
+        if isinstance(table, dict):
+            refuse_earlier_flows(table)
+        return table
 
     @model_validator(mode="after")
     def _line_fits_nozzle(self) -> Self:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any, Literal
 
 from pydantic import Field, model_validator
@@ -11,6 +12,15 @@ from printers.validation import Record
 
 Seam = Literal["random", "aligned", "nearest", "rear"]
 """Where loops begin and end: the choices that slicers have."""
+
+
+def refuse_earlier_flows(table: Mapping[str, Any]) -> None:
+    """Raise ValueError, with what replaced them, for keys that `[slicer]` had once."""
+    if "perimeter_flow" in table or "infill_flow" in table:
+        raise ValueError(
+            "perimeter_flow and infill_flow are one key now, flow in [slicer], as slicers have "
+            "one multiplier for both"
+        )
 
 
 class SlicerAdvice(Record):
@@ -62,11 +72,7 @@ class SlicerAdvice(Record):
         """What files of earlier versions hold is answered with what replaced it."""
         if not isinstance(table, dict):
             return table
-        if "perimeter_flow" in table or "infill_flow" in table:
-            raise ValueError(
-                "perimeter_flow and infill_flow are one key now, flow, as slicers have one "
-                "multiplier for both"
-            )
+        refuse_earlier_flows(table)
         if table.get("seam") == "staggered":
             raise ValueError('seam is "staggered", which no slicer offers; write "random"')
         return table

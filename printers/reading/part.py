@@ -10,6 +10,9 @@ from printers.arrays import Floats, Ints
 from printers.errors import PrintersError
 from printers.reading.limits import FARTHEST, MOST_TRIANGLES
 
+LEAST = 4
+"""Triangles, and vertices, of a tetrahedron."""
+
 NOT_STATED = "not stated: taken as mm"
 
 
@@ -37,6 +40,7 @@ class ReadPart:
         if not len(self.triangles):
             raise PrintersError("it holds no triangle")
         require_few(len(self.triangles))
+        _require_enough(self.vertices, self.triangles)
         _require_coordinates(self.vertices)
 
 
@@ -46,6 +50,17 @@ def require_few(triangles: int) -> None:
         raise PrintersError(
             f"it has {triangles} triangles; at most {MOST_TRIANGLES} can be checked"
         )
+
+
+def _require_enough(vertices: Floats, triangles: Ints) -> None:
+    """Raise PrintersError for less than a tetrahedron has."""
+    for count, one, several in (
+        (len(triangles), "triangle", "triangles"),
+        (len(vertices), "vertex", "vertices"),
+    ):
+        if count < LEAST:
+            held = f"{count} {one if count == 1 else several}"
+            raise PrintersError(f"it holds {held}; a solid has {LEAST} or more")
 
 
 def _require_coordinates(vertices: Floats) -> None:

@@ -7,6 +7,9 @@ for each facet that it declares.
 from __future__ import annotations
 
 import re
+from collections import Counter
+from collections.abc import Iterator
+from itertools import islice
 
 import numpy as np
 
@@ -15,7 +18,8 @@ from printers.errors import PrintersError, quoted
 from printers.reading.part import NOT_STATED, ReadPart, require_few
 
 HEADER = 84  # bytes: 80 of anything, and the number of facets
-_FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+"""A facet of a binary file."""
 
 _NUMBER = rb"\s+(\S{1,60})"
 _VERTEX = rb"\s+vertex" + 3 * _NUMBER
@@ -27,7 +31,7 @@ _TEXT_FACET = re.compile(
 )
 _TEXT_LINE = re.compile(rb"\s*(solid|endsolid)(?![^\s])[^\r\n]*", re.IGNORECASE)
 MOST_SOLIDS = 10_000  # in one text
-_FACETS_AT_ONCE = 20_000
+_PIECES_AT_ONCE = 20_000
 
 
 def read_stl(content: bytes) -> ReadPart:
@@ -43,7 +47,7 @@ def read_stl(content: bytes) -> ReadPart:
 
 
 def _is_text(content: bytes) -> bool:
-    exact = len(content) >= HEADER and len(content) == HEADER + _declared(content) * _FACET.itemsize
+    exact = len(content) >= HEADER and len(content) == HEADER + _declared(content) * FACET.itemsize
     start = content[:4096].removeprefix(b"\xef\xbb\xbf").lstrip().lower()
     text = start.startswith(b"solid") and (b"facet" in start or b"endsolid" in start)
     return not exact and text and b"\0" not in start
@@ -57,7 +61,7 @@ def _binary_corners(content: bytes) -> tuple[Floats, tuple[str, ...]]:
     if len(content) < HEADER:
         raise PrintersError(f"it has {len(content)} bytes, and an STL at least {HEADER}")
     count = _declared(content)
-    needed = HEADER + count * _FACET.itemsize
+    needed = HEADER + count * FACET.itemsize
     if len(content) < needed:
         raise PrintersError(
             f"it declares {count} triangles, which take {needed} bytes, but it has {len(content)}: "
@@ -65,7 +69,7 @@ def _binary_corners(content: bytes) -> tuple[Floats, tuple[str, ...]]:
         )
     require_few(count)
     notes = _after_last(content[needed:], count)
-    corners = np.frombuffer(content, _FACET, count, HEADER)["corners"]
+    corners = np.frombuffer(content, FACET, count, HEADER)["corners"]
     with np.errstate(invalid="ignore"):  # signalling NaN
         return corners.astype(np.float64), notes
 
@@ -74,39 +78,38 @@ def _after_last(rest: bytes, count: int) -> tuple[str, ...]:
     """Notes on bytes behind the last declared facet, which must not be facets themselves."""
     if not rest:
         return ()
-    if len(rest) >= _FACET.itemsize and any(rest):
-        more = len(rest) // _FACET.itemsize
+    if len(rest) >= FACET.itemsize and any(rest):
+        more = len(rest) // FACET.itemsize
         raise PrintersError(f"it declares {count} triangles, but holds {more} more behind them")
     return (f"{len(rest)} bytes behind its last triangle mean nothing",)
 
 
 def _text_corners(content: bytes) -> tuple[Floats, tuple[str, ...]]:
-    blocks: list[Floats] = []
-    numbers: list[bytes] = []
-    place = 3 if content.startswith(b"\xef\xbb\xbf") else 0
-    solids = open_solids = 0
-    while place < len(content):
-        if facet := _TEXT_FACET.match(content, place):
-            numbers.extend(facet.groups())
-            if len(numbers) == 9 * _FACETS_AT_ONCE:
-                blocks.append(_as_corners(numbers))
-                numbers = []
-                require_few(len(blocks) * _FACETS_AT_ONCE)
-            place = facet.end()
-        elif line := _TEXT_LINE.match(content, place):
-            begins = line[1].lower() == b"solid"
-            if solids > MOST_SOLIDS:
-                raise PrintersError(f"it holds more than {MOST_SOLIDS} solids")
-            solids, open_solids = solids + begins, open_solids + (1 if begins else -1)
-            place = line.end()
-        elif not content[place:].strip():
-            break
-        else:
-            raise _unread(content, place)
-    if open_solids:
+    pieces, blocks, lines = _pieces(content), list[Floats](), Counter[bytes]()
+    while some := list(islice(pieces, _PIECES_AT_ONCE)):
+        facets = [piece.groups() for piece in some if piece.re is _TEXT_FACET]
+        blocks.append(_as_corners([number for facet in facets for number in facet]))
+        require_few(sum(map(len, blocks)))
+        lines.update(piece[1].lower() for piece in some if piece.re is _TEXT_LINE)
+        if lines[b"solid"] > MOST_SOLIDS:
+            raise PrintersError(f"it holds more than {MOST_SOLIDS} solids")
+    if lines[b"solid"] != lines[b"endsolid"]:
         raise PrintersError("it ends before its last solid does: it is cut short")
-    corners = np.concatenate([*blocks, _as_corners(numbers)])
-    return corners, (f"{solids} solids in one file",) if solids > 1 else ()
+    solids = lines[b"solid"]
+    return np.concatenate(blocks), (f"{solids} solids in one file",) if solids > 1 else ()
+
+
+def _pieces(content: bytes) -> Iterator[re.Match[bytes]]:
+    """Facets, and lines that begin or end a solid, one after the other."""
+    place = 3 if content.startswith(b"\xef\xbb\xbf") else 0
+    while place < len(content):
+        piece = _TEXT_FACET.match(content, place) or _TEXT_LINE.match(content, place)
+        if piece is None and content[place:].strip():
+            raise _unread(content, place)
+        if piece is None:
+            return
+        yield piece
+        place = piece.end()
 
 
 def _as_corners(numbers: list[bytes]) -> Floats:

@@ -7,12 +7,13 @@ per opening it closes; that counts the openings exactly, even two under one plug
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from printers.measure.leakage.leaks import Leak
 from printers.measure.part import MeasuredPart
 from printers.measure.plugging import Sealing
+from printers.measure.widths import shown
 from printers.report import RuleResult, Verdict, place
 
 
@@ -28,12 +29,19 @@ class Diagnosis:
 
 def check_airtightness(part: MeasuredPart) -> Iterator[RuleResult]:
     """Name what is wrong with the cavity, or report its volume."""
-    found = _open_cavity(part) if part.sealing.leaks else _diagnose(part.sealing)
-    count = len(part.sealing.openings)
-    required = f"1 cavity, {max(count, 1)} opening{'s' if count > 1 else ''}"
+    leaks = part.sealing.leaks or part.opened is not None
+    found = _open_cavity(part) if leaks else _diagnose(part.sealing)
+    required = f"1 cavity, {_openings(max(len(part.sealing.openings), 1))}"
     yield RuleResult(
         "airtightness", found.verdict, found.found, required, "", found.where, found.message
-    )
+    ).at(*_places(part))
+
+
+def _places(part: MeasuredPart) -> Iterator[Iterable[float]]:
+    """That a diagnosis may name, beside the openings: sealed cavities and leaks."""
+    sealed = part.sealing.part
+    yield from (sealed.middle(shell) for shell in sealed.voids)
+    yield from (leak.centre for leak in (part.opened.leaks if part.opened is not None else ()))
 
 
 def _diagnose(sealing: Sealing) -> Diagnosis:
@@ -73,26 +81,29 @@ def _open_cavity(part: MeasuredPart) -> Diagnosis:
     leaks = part.opened.leaks if part.opened is not None else ()
     where = "; ".join(place(leak.centre) for leak in leaks[:5])
     message = f"the cavity leaks: with {names} plugged it is still open{_sizes(leaks)}"
-    found = f"0 closed cavities, {part.sealing.openings_closed + max(len(leaks), 1)} openings"
+    found = f"0 closed cavities, {_openings(part.sealing.openings_closed + max(len(leaks), 1))}"
     return Diagnosis("fail", found, where or "leak not located", message)
 
 
 def _sizes(leaks: Sequence[Leak]) -> str:
     if not leaks:
         return " somewhere, more widely than at the declared opening"
-    named = [f"near {place(leak.centre)} ({leak.width:.2f} mm wide)" for leak in leaks[:5]]
+    named = [f"near {place(leak.centre)} ({shown(leak.width)} mm wide)" for leak in leaks[:5]]
     rest = [f"and in {len(leaks) - 5} more places"] if len(leaks) > 5 else []
     return " " + ", ".join(named + rest)
 
 
 def _closed_cavities(sealing: Sealing, names: str, mouths: str) -> Diagnosis:
-    cavities, closed = sealing.closed.voids, sealing.openings_closed
-    found = f"{_cavities(cavities)}, {closed} opening{'s' if closed != 1 else ''}"
+    cavities, closed, count = (sealing.closed.voids, sealing.openings_closed, len(sealing.openings))
+    found = f"{_cavities(cavities)}, {_openings(closed)}"
     if len(cavities) > 1:
         message = f"the part has {len(cavities)} unconnected cavities of {_volumes(cavities)} mm³"
         return Diagnosis("fail", found, mouths, message)
-    if closed != len(sealing.openings):
-        message = f"{closed} openings lie at {names}, where {len(sealing.openings)} is declared"
+    if closed != count:
+        message = (
+            f"{_openings(closed)} {'lies' if closed == 1 else 'lie'} at {names}, where "
+            f"{count} {'is' if count == 1 else 'are'} declared"
+        )
         return Diagnosis("fail", found, mouths, message)
     message = f"one cavity of {_volumes(cavities)} mm³ behind {names}, closed everywhere else"
     return Diagnosis("pass", found, mouths, message)
@@ -105,3 +116,7 @@ def _volumes(voids: Mapping[int, float]) -> str:
 
 def _cavities(voids: Mapping[int, float]) -> str:
     return f"{len(voids)} cavit{'y' if len(voids) == 1 else 'ies'}"
+
+
+def _openings(count: int) -> str:
+    return f"{count} opening{'' if count == 1 else 's'}"

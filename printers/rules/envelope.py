@@ -54,20 +54,22 @@ def check_cross_section(part: MeasuredPart) -> Iterator[RuleResult]:
 def check_bed_contact(part: MeasuredPart) -> Iterator[RuleResult]:
     """Enough of the part's footprint must lie flat on the bed."""
     surface, share = part.surface, part.profile.minimum_bed_contact
-    area = float(-surface.area_vectors[part.on_bed, 2].sum())
+    area = float(np.abs(surface.area_vectors[part.on_bed, 2]).sum())
     footprint = float(np.prod(np.ptp(surface.bounds[:, :2], axis=0)))
-    required = share * footprint
-    stands = area >= required * (1 - EXACT)
+    required, lies = share * footprint, area / footprint if footprint else 0.0
+    stands = area > 0 and area >= required * (1 - EXACT)
     message = (
-        f"{area:.1f} mm² lie on the bed at z = {surface.bounds[0, 2]:.2f} mm, "
-        f"{area / footprint:.0%} of the footprint; "
+        f"{area:.1f} mm² lie on the bed at z = {round(surface.bounds[0, 2], 2) + 0.0:.2f} mm, "
+        f"{lies:.0%} of the footprint; "
         f"at least {share:.0%} {'do' if stands else 'must'}"
     )
     contact = surface.corners[part.on_bed]
-    where = place(contact.mean(axis=(0, 1))) if len(contact) else "nowhere"
+    middle = [contact.mean(axis=(0, 1))] if len(contact) else []
+    where = place(middle[0]) if middle else "nowhere"
     measured, needed = round(area, 1), round(required, 1)
     verdict, hidden = pass_or_fail(stands), round(FACET_TOLERANCE * part.bed_rim, 2)
-    yield RuleResult("bed_contact", verdict, measured, needed, "mm²", where, message, hidden)
+    result = RuleResult("bed_contact", verdict, measured, needed, "mm²", where, message, hidden)
+    yield result.at(*middle)
 
 
 def _size(extent: np.typing.ArrayLike) -> str:

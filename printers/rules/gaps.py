@@ -60,7 +60,8 @@ def _narrowest(rule: str, scope: str, slabs: Slabs, profile: PrinterProfile) -> 
     message = (
         f"the narrowest gap {_inside(scope)}, {width:.3f} mm at {where}, {_against(open_, profile)}"
     )
-    return at_least(rule, width, profile.minimum_gap, FACET_TOLERANCE, where, message)
+    result = at_least(rule, width, profile.minimum_gap, FACET_TOLERANCE, where, message)
+    return result.at(slabs.middle[chosen])
 
 
 def _as_declared(gap: DeclaredGap, slabs: Slabs) -> RuleResult:

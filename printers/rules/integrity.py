@@ -9,7 +9,7 @@ import numpy as np
 from printers.arrays import Floats, Ints
 from printers.measure.box_tree import Crossings, crossings
 from printers.measure.part import MeasuredPart
-from printers.measure.shells import Shells
+from printers.measure.shells import NEGLIGIBLE_VOLUME, Shells
 from printers.measure.surface import Surface
 from printers.report import RuleResult, Verdict, pass_or_fail, place
 
@@ -24,12 +24,15 @@ def check_watertight(part: MeasuredPart) -> Iterator[RuleResult]:
     found = _bad_edges(part.surface)
     count = sum(len(edges) for edges in found.values())
     message, where = "the mesh is closed and evenly oriented", "whole mesh"
+    middle: tuple[Floats, ...] = ()
     if found:
         text = ", ".join(f"{len(edges)} {name}" for name, edges in found.items())
         message = f"the mesh is not the boundary of a solid: it has {text}"
-        where = place(_middle_of_edge(part.surface, int(next(iter(found.values()))[0])))
+        middle = (_middle_of_edge(part.surface, int(next(iter(found.values()))[0])),)
+        where = place(middle[0])
     verdict = pass_or_fail(not found)
-    yield RuleResult("watertight", verdict, count, 0, "bad edges", where, message, 0.0)
+    result = RuleResult("watertight", verdict, count, 0, "bad edges", where, message, 0.0)
+    yield result.at(*middle)
 
 
 def check_self_intersection(part: MeasuredPart) -> Iterator[RuleResult]:
@@ -41,7 +44,8 @@ def check_self_intersection(part: MeasuredPart) -> Iterator[RuleResult]:
         where = place(part.surface.corners[pierced.triangle[0]].mean(axis=0))
         message = f"the surface passes through itself in {count} places, first near {where}"
     verdict = pass_or_fail(not count)
-    yield RuleResult("self_intersection", verdict, count, 0, "crossings", where, message, 0.0)
+    result = RuleResult("self_intersection", verdict, count, 0, "crossings", where, message, 0.0)
+    yield result.at(*part.surface.corners[pierced.triangle[:1]].mean(axis=1))
 
 
 def check_slivers(part: MeasuredPart) -> Iterator[RuleResult]:
@@ -59,24 +63,31 @@ def check_slivers(part: MeasuredPart) -> Iterator[RuleResult]:
             "them"
         )
     verdict: Verdict = "warn" if len(thin) else "pass"
-    yield RuleResult("slivers", verdict, len(thin), 0, "triangles", where, message, 0.0)
+    result = RuleResult("slivers", verdict, len(thin), 0, "triangles", where, message, 0.0)
+    yield result.at(*surface.corners[thin[:1]].mean(axis=1))
 
 
 def check_one_body(part: MeasuredPart) -> Iterator[RuleResult]:
     """Exactly one shell may enclose material; an inside-out mesh encloses none."""
     shells = part.shells
     count, where = len(shells.bodies), "whole mesh"
+    others: list[int] = []
     if count == 1:
         message = f"one solid body of {shells.material:.1f} mm³"
-    elif count == 0:
+    elif count == 0 and shells.voids:
         message = "the surface is inside out: its normals point into the material"
+    elif count == 0:
+        message = (
+            f"the surface is flat: no piece of it encloses more than {NEGLIGIBLE_VOLUME:g} mm³"
+        )
     else:
         main, *others = sorted(shells.bodies, key=lambda shell: -shells.bodies[shell])
         where = "; ".join(place(shells.middle(shell)) for shell in others[:5])
         named = ", ".join(_described(shells, shell, main) for shell in others[:5])
         message = f"the mesh holds {count} bodies; it must be one: beside the largest {named}"
     verdict = pass_or_fail(count == 1)
-    yield RuleResult("one_body", verdict, count, 1, "bodies", where, message, 0.0)
+    result = RuleResult("one_body", verdict, count, 1, "bodies", where, message, 0.0)
+    yield result.at(*(shells.middle(shell) for shell in others[:5]))
 
 
 def _described(shells: Shells, shell: int, main: int) -> str:

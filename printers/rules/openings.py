@@ -54,7 +54,7 @@ def _outline(solid: Manifold, opening: Opening, depth: float) -> tuple[Floats, F
 
     frame = frame_of(opening)
     upright = solid.transform(np.column_stack([frame.T, -frame.T @ np.asarray(opening.centre)]))
-    radius = opening.radius + PLUG_MARGIN
+    radius = opening.plug_radius + PLUG_MARGIN
     mouth = Manifold.cylinder(depth, radius, radius, PLUG_SIDES).translate((0.0, 0.0, -depth))
     polygons = (upright ^ mouth).project().to_polygons()
     start = np.concatenate([np.zeros((0, 2)), *polygons])
@@ -73,7 +73,11 @@ def _judge(opening: Opening, diameter: float | None, minimum_gap: float) -> Rule
     required = max(2 * opening.radius, minimum_gap)
     where, needed = place(opening.centre), round(required, 3)
     if diameter is None:
-        message = f"there is no mouth of {opening.name} at {where}: no material lies around it"
+        message = (
+            f"no material lies within {opening.plug_radius + PLUG_MARGIN:g} mm of the axis of "
+            f"{opening.name} at {where}: there is no mouth, or one wider than the "
+            f"{2 * opening.radius:g} mm declared"
+        )
         return RuleResult("opening_width", "fail", "none", needed, "mm", where, message)
     good = diameter >= required - 2 * FACET_TOLERANCE
     message = (

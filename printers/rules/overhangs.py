@@ -93,7 +93,7 @@ def _check_bridges(overhangs: Overhangs, profile: PrinterProfile) -> RuleResult:
     share = OF_CURVED if overhangs.curved[widest] else OF_FLAT
     return RuleResult(
         "bridge", verdict, round(span, 2), limit, "mm", where, message, round(share * span, 2)
-    )
+    ).at(overhangs.samples.points[widest])
 
 
 def _check_free(overhangs: Overhangs, profile: PrinterProfile) -> RuleResult:
@@ -106,14 +106,15 @@ def _check_free(overhangs: Overhangs, profile: PrinterProfile) -> RuleResult:
             "overhang", "pass", 0.0, 0.0, "mm²", "whole part", message, round(unsure, 1)
         )
     points = overhangs.samples.points[free]
-    where = place(points[np.linalg.norm(points - np.median(points, axis=0), axis=1).argmin()])
+    middle = points[np.linalg.norm(points - np.median(points, axis=0), axis=1).argmin()]
+    where = place(middle)
     message = (
         f"{area:.0f} mm² beyond {angle:g}° from the vertical hang free, such as at {where}: "
         "expect a rough underside"
     )
     return RuleResult(
         "overhang", "warn", round(area, 1), 0.0, "mm²", where, message, round(unsure, 1)
-    )
+    ).at(middle)
 
 
 def _check_inside(overhangs: Overhangs) -> RuleResult:

@@ -32,4 +32,4 @@ def check_air_passage(part: MeasuredPart) -> Iterator[RuleResult]:
         f"{where}, {'stays open' if stays else 'closes'} (at least {needed:g} mm)"
     )
     result = at_least("air_passage", width, needed, TOLERANCE, where, message)
-    yield replace(result, uncertainty=round(narrowest.uncertainty, 3))
+    yield replace(result, uncertainty=round(narrowest.uncertainty, 3)).at(narrowest.place)

@@ -45,7 +45,8 @@ def _thinnest(
         f"of {unit:g} mm thick: {against(thickness, unit, tolerance)}"
         f"{_spread(measured, unit, tolerance)}"
     )
-    return at_least("thinnest_place", thickness, unit, tolerance, where, message)
+    result = at_least("thinnest_place", thickness, unit, tolerance, where, message)
+    return result.at(measured.samples.points[chosen])
 
 
 def _spread(measured: LocalThickness, unit: float, tolerance: float) -> str:

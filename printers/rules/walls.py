@@ -64,7 +64,7 @@ def _multiple_measured(wall: MeasuredWall, profile: PrinterProfile) -> RuleResul
     result = _whole_number(
         "wall_multiple_measured", good, round(count, 2), wall.kind, where, message
     )
-    return replace(result, uncertainty=round(tolerance / unit, 3))
+    return replace(result, uncertainty=round(tolerance / unit, 3)).at(wall.place)
 
 
 def _whole_number(
@@ -90,7 +90,7 @@ def _as_declared(wall: DeclaredWall, survey: WallSurvey) -> RuleResult:
         wall.name,
         f"{wall.name} {wall.thickness:g} mm {message}",
         FACET_TOLERANCE,
-    )
+    ).at(*(other.place for other in survey.walls))
 
 
 def _nearest(wall: DeclaredWall, survey: WallSurvey) -> tuple[float | str, str]:

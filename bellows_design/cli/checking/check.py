@@ -43,9 +43,8 @@ def check(options: CheckOptions) -> Answer:
 def _check_part(options: CheckOptions) -> Answer:
     from bellows_design.cli.checking.sliced import with_leak_test
     from bellows_design.progress import on_stderr
-    from printers.orientation.turning import parse_up
 
-    up = parse_up(options.up or "Z")
+    up = options.turning()
     with on_stderr() as progress:
         subject = (of_design if options.is_design else of_file)(options, progress)
         found = (_best if options.orientation else _standing)(subject, up, progress)
@@ -66,7 +65,7 @@ def _standing(subject: Subject, up: Turning, progress: Progress) -> _Judged:
 
     progress.stage("check")
     report = check_printability(turned(subject.model, up), subject.profile)
-    return _Judged(in_file(report, up), up)
+    return _Judged(in_file(report, subject.model, up), up)
 
 
 def _best(subject: Subject, _: Turning, progress: Progress) -> _Judged:

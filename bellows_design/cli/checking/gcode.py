@@ -16,7 +16,10 @@ from bellows_design.reports.check import report_table
 from bellows_design.validation.quoting import quoted
 
 if TYPE_CHECKING:
+    from printers import PrinterProfile
     from printers.gcode.beads import Beads
+    from printers.gcode.reading import GCode
+    from printers.leak_test.result import LeakTest
     from printers.model import Opening
     from printers.openings.near import Named
 
@@ -26,7 +29,7 @@ def check_gcode(options: CheckOptions) -> Answer:
     from bellows_design.progress import on_stderr
     from printers.gcode.reading import read_gcode
     from printers.leak_test.run import leak_test
-    from printers.report import PrintabilityReport
+    from printers.openings.near import require_apart
 
     named, profile = _named(options), options.profile()
     with on_stderr() as progress:
@@ -36,17 +39,23 @@ def check_gcode(options: CheckOptions) -> Answer:
             opening_on(gcode.beads, each, f"opening {i}" if len(named) > 1 else "opening")
             for i, each in enumerate(named, 1)
         )
+        require_apart(openings)
         progress.stage("leak test")
         found = leak_test(gcode.beads, openings, profile)
+    return _answer(options, profile, gcode, openings, found)
+
+
+def _answer(
+    options: CheckOptions,
+    profile: PrinterProfile,
+    gcode: GCode,
+    openings: Sequence[Opening],
+    found: LeakTest,
+) -> Answer:
+    from printers.report import PrintabilityReport
+
     report = PrintabilityReport(profile.name, found.rules)
-    slicer = " ".join(each for each in (gcode.slicer, gcode.slicer_version) if each)
-    notes = (
-        f"G-code{f' of {slicer}' if slicer else ''}; places in its own coordinates, mm",
-        *(_said(opening) for opening in openings),
-        *gcode.notes,
-        *found.notes,
-        *drawn(found, options.picture),
-    )
+    notes = (*_notes(gcode, openings), *found.notes, *drawn(found, options.picture))
     content = {
         "file": options.name,
         "format": "G-code",
@@ -55,10 +64,19 @@ def check_gcode(options: CheckOptions) -> Answer:
         "openings": [opening_dict(opening) for opening in openings],
         "notes": list(notes),
         **report.to_dict(),
-        "leak_test": found.to_dict(),
+        "leak_test": found.figures(),
     }
     status = DONE if report.verdict == "pass" else REFUSED
     return Answer(content, report_table(Path(options.name).name, report, notes), status)
+
+
+def _notes(gcode: GCode, openings: Sequence[Opening]) -> tuple[str, ...]:
+    slicer = " ".join(each for each in (gcode.slicer, gcode.slicer_version) if each)
+    return (
+        f"G-code{f' of {slicer}' if slicer else ''}; places in its own coordinates, mm",
+        *(_said(opening) for opening in openings),
+        *gcode.notes,
+    )
 
 
 def _named(options: CheckOptions) -> Sequence[Named]:
@@ -77,13 +95,7 @@ def opening_on(beads: Beads, named: Named, name: str) -> Opening:
 
     from printers.model import Opening
 
-    of_part = beads.chosen(beads.of_part)
-    half = of_part.width[:, None] / 2
-    ends = np.concatenate([of_part.start - half, of_part.end - half])
-    starts = np.concatenate([of_part.start + half, of_part.end + half])
-    bottom = float((of_part.top - of_part.height).min())
-    lower = np.array([*ends.min(axis=0), bottom])
-    upper = np.array([*starts.max(axis=0), float(of_part.top.max())])
+    lower, upper = beads.part_box
     point = np.array(named[:3])
     distances = np.abs(np.concatenate([point - lower, upper - point]))
     side = int(distances.argmin())

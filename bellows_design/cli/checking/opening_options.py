@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
@@ -16,6 +15,7 @@ if TYPE_CHECKING:
     from printers.openings.near import Named
 
 LARGEST = 1e5  # mm, of a coordinate
+DIAMETERS = (0.05, 200.0)  # mm: what is narrower than the least `minimum_gap` prints shut
 Found = tuple[tuple["Opening", ...], tuple[str, ...]]
 
 
@@ -36,10 +36,10 @@ def _parsed(text: str) -> Named:
             f"--opening is {quoted(text)}; it must be X,Y,Z or X,Y,Z,DIAMETER in mm, or auto alone."
         )
     x, y, z, *rest = numbers
-    if rest and not (math.isfinite(rest[0]) and 0 < rest[0] <= 200):
+    if rest and not DIAMETERS[0] <= rest[0] <= DIAMETERS[1]:
         raise DesignError(
-            f"the diameter of --opening {quoted(text)} is {rest[0]:g} mm; it must lie above 0 and "
-            "up to 200 mm."
+            f"the diameter of --opening {quoted(text)} is {rest[0]:g} mm; it must lie between "
+            f"{DIAMETERS[0]:g} and {DIAMETERS[1]:g} mm."
         )
     return x, y, z, rest[0] if rest else None
 
@@ -50,7 +50,7 @@ def openings_of(surface: Surface, named: Sequence[Named]) -> Found:
     Raises ``PrintersError`` where it is not clear what is meant to be open.
     """
     from printers.openings.find import find_mouths, only_opening
-    from printers.openings.near import named_opening
+    from printers.openings.near import named_opening, require_apart
 
     if not surface.is_closed or surface.volume() <= 0:
         return (), ("openings are looked for in meshes that close, with their normals outwards",)
@@ -63,4 +63,5 @@ def openings_of(surface: Surface, named: Sequence[Named]) -> Found:
         for number, point in enumerate(named, 1)
     ]
     openings = tuple(opening for one in each for opening in one.openings)
+    require_apart(openings)
     return openings, tuple(note for one in each for note in one.notes)

@@ -14,6 +14,7 @@ from bellows_design.validation.quoting import quoted
 
 if TYPE_CHECKING:
     from printers import PrinterProfile
+    from printers.orientation.turning import Turning
 
 DEFAULT_PRINTER = "prusa_i3"
 PARTS = (".stl", ".3mf", ".step", ".stp")
@@ -110,7 +111,24 @@ class CheckOptions:
         """The printer for a file. Raises ``PrintersError``."""
         from printers import load_profile
 
-        return self.with_filament(load_profile(self.printer or DEFAULT_PRINTER))
+        printer = DEFAULT_PRINTER if self.printer is None else self.printer
+        return self.with_filament(load_profile(printer))
+
+    def turning(self) -> Turning:
+        """How the part stands on the bed: as its file has it, or as was asked for.
+
+        Raises ``DesignError``.
+        """
+        from printers.errors import PrintersError
+        from printers.orientation.turning import AS_IN_FILE, AXES, parse_up
+
+        try:
+            return AS_IN_FILE if self.up is None else parse_up(self.up)
+        except PrintersError:
+            raise DesignError(
+                f"--up is {quoted(self.up)}; it must be {', '.join(AXES)} or a vector such as "
+                "0,0.5,1."
+            ) from None
 
     def with_filament(self, profile: PrinterProfile) -> PrinterProfile:
         """The printer with the filament that was asked for. Raises ``PrintersError``."""
@@ -126,22 +144,17 @@ class CheckOptions:
             ("--set", self.settings, self.is_design, "a file has no parameters"),
             ("--opening", self.openings, not self.is_design, "a design declares its port"),
             ("--up", self.up, self.is_part, only_parts),
-            (
-                "--orientation",
-                self.orientation,
-                self.is_part,
-                "only a part in a file can be turned",
-            ),
+            ("--orientation", self.orientation, self.is_part, only_parts),
             ("--slice", self.slice, not self.is_gcode, "G-code is sliced already"),
             ("--keep-gcode", self.keep_gcode, self.slice, "it needs --slice"),
             ("--require-slicer", self.require_slicer, self.slice, "it needs --slice"),
             ("--picture", self.picture, self.slice or self.is_gcode, "it needs --slice"),
         ):
-            if given and not holds:
+            if given not in (None, False, ()) and not holds:
                 raise DesignError(f"{option} means nothing for {quoted(self.name)}: {reason}.")
         if self.orientation not in (None, AUTO):
             raise DesignError(f"--orientation is {quoted(str(self.orientation))}; it can be auto.")
-        if self.orientation and self.up:
+        if self.orientation is not None and self.up is not None:
             raise DesignError("--orientation auto chooses what --up says: give one of them.")
 
     def _require_known_file(self) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from bellows_design.progress import Progress
     from printers import PrintedModel, PrinterProfile
     from printers.model import Opening
+    from printers.reading.part import ReadPart
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,13 +47,12 @@ def of_design(options: CheckOptions, progress: Progress) -> Subject:
 def of_file(options: CheckOptions, progress: Progress) -> Subject:
     """The part in a file, with its openings. Raises ``DesignError`` and ``PrintersError``."""
     from printers.measure.surface import merged_surface
-    from printers.model import PrintedModel
     from printers.reading.read import read_part
 
     named, profile = parse_openings(options.openings), options.profile()
     progress.stage(f"read {Path(options.name).name}")
     read = read_part(options.name)
-    bare = PrintedModel(read.vertices, read.triangles)
+    bare = _model(options.name, read)
     progress.stage("openings")
     openings, notes = openings_of(merged_surface(bare.vertices, bare.triangles), named)
     identity = {
@@ -62,9 +62,20 @@ def of_file(options: CheckOptions, progress: Progress) -> Subject:
         "triangles": len(read.triangles),
         "openings": [opening_dict(opening) for opening in openings],
     }
-    model = PrintedModel(read.vertices, read.triangles, openings=openings)
+    model = replace(bare, openings=openings)
     said = (f"{read.format}; units {read.units}; {_size(model)}", *read.notes, *notes)
     return Subject(Path(options.name).name, identity, model, profile, said)
+
+
+def _model(name: str, read: ReadPart) -> PrintedModel:
+    """What was read as a part to be printed. Raises ``PrintersError``, which names the file."""
+    from printers.errors import PrintersError, quoted
+    from printers.model import PrintedModel
+
+    try:
+        return PrintedModel(read.vertices, read.triangles)
+    except PrintersError as error:
+        raise PrintersError(f"{quoted(name)} cannot be taken as a part: {error}.") from None
 
 
 def opening_dict(opening: Opening) -> dict[str, Any]:

@@ -47,22 +47,7 @@ def read_step(content: bytes, seconds: float = STEP_SECONDS, memory: int = STEP_
 
 def _worked(folder: Path, seconds: float, memory: int) -> str:
     """Run the process; how it ended, empty if well."""
-    process = subprocess.Popen(
-        # -P: nothing from the current folder, which may hold a file of any name
-        [
-            sys.executable,
-            "-P",
-            "-m",
-            "printers.reading.step_files.worker",
-            str(folder),
-            str(memory),
-        ],
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.DEVNULL,  # the kernel talks
-        stderr=subprocess.DEVNULL,
-        env=_environment(),
-        start_new_session=True,  # a Ctrl-C of the terminal reaches this program, which ends it
-    )
+    process = _started(folder, memory)
     try:
         status = process.wait(seconds)
     except subprocess.TimeoutExpired:
@@ -73,6 +58,19 @@ def _worked(folder: Path, seconds: float, memory: int) -> str:
     if status < 0:
         return f"it was ended by {signal.Signals(-status).name}"
     return f"it ended with status {status}" if status else ""
+
+
+def _started(folder: Path, memory: int) -> subprocess.Popen[bytes]:
+    # -P: nothing from the current folder, which may hold a file of any name
+    program = [sys.executable, "-P", "-m", "printers.reading.step_files.worker"]
+    return subprocess.Popen(
+        [*program, str(folder), str(memory)],
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.DEVNULL,  # the kernel talks
+        stderr=subprocess.DEVNULL,
+        env=_environment(),
+        start_new_session=True,  # a Ctrl-C of the terminal reaches this program, which ends it
+    )
 
 
 def _environment() -> Mapping[str, str]:

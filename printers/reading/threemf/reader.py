@@ -26,6 +26,9 @@ from printers.reading.threemf.xml_events import Attributes, read_elements
 USUAL_PLACE = "3D/3dmodel.model"
 DEEPEST_NESTING = 16  # of objects made of objects
 MOST_COPIES = 10_000
+FLATTEST = float(np.finfo(np.float32).eps)
+"""Ratio of the scales of a transform: programs have meshes in numbers that tell no less."""
+
 _START = "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"
 _RELATIONS = "_rels/.rels"
 
@@ -113,10 +116,11 @@ def _meshes(contents: _Contents, file: str, placed: Placed) -> list[Mesh]:
 
 def _moved(mesh: Mesh, transform: Floats) -> Mesh:
     vertices, triangles = mesh
-    size = float(np.linalg.det(transform[:3]))
-    if not abs(size) > 0:
+    scales = np.linalg.svd(transform[:3], compute_uv=False)
+    if not scales[-1] > FLATTEST * scales[0]:
         raise PrintersError("a transform makes an object flat")
-    turned = triangles if size > 0 else triangles[:, ::-1]  # a mirror image would be inside out
+    mirrored = np.linalg.slogdet(transform[:3]).sign < 0  # would be inside out
+    turned = triangles[:, ::-1] if mirrored else triangles
     return vertices @ transform[:3] + transform[3], turned
 
 

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from small_solids import arrays, block, bore, hollow_box
 
+from printers import Opening, PrintedModel, check_printability, load_profile
 from printers.errors import PrintersError
 from printers.measure.surface import Surface, merged_surface
 from printers.openings.find import FoundOpenings, find_mouths
-from printers.openings.near import named_opening
+from printers.openings.near import named_opening, require_apart
 
 PART = merged_surface(*arrays(hollow_box() - bore(1.0, (10.0, 5.2, 5.2), 8.0)))
 
@@ -55,3 +58,40 @@ def test_without_a_mouth_or_a_diameter_the_nearest_mouth_is_told() -> None:
 def test_a_point_far_from_the_part_is_refused() -> None:
     with pytest.raises(PrintersError, match="too far"):
         named(0.0, 0.0, 50.0, 2.0)
+
+
+CRACKED = hollow_box() - block((1.4, 3.6, 0.3), (-0.1, 5.2, 5.05))
+
+
+def test_beside_a_port_with_a_diameter_a_crack_into_it_is_a_leak() -> None:
+    surface = merged_surface(*arrays(CRACKED))
+    with pytest.raises(PrintersError, match="runs into it"):
+        named(0.0, 5.2, 5.2, surface=surface)
+    openings = named(-0.5, 5.2, 5.2, 2.0, surface=surface).openings
+    assert openings[0].centre == pytest.approx((0.0, 5.2, 5.2), abs=1e-5)
+    assert openings[0].reach is None
+    model = PrintedModel(*arrays(CRACKED), openings=openings)
+    rules = {rule.rule: rule for rule in check_printability(model, load_profile("prusa_i3")).rules}
+    assert rules["airtightness"].verdict == "fail"
+    assert "still open near (0." in rules["airtightness"].message  # beside it, in the wall at x = 0
+    assert rules["opening_width"].verdict == "pass"
+
+
+def test_one_mouth_named_twice_is_refused() -> None:
+    once, again = named(0.0, 5.2, 5.2).openings[0], named(0.0, 5.0, 5.2).openings[0]
+    overlapping = named(0.0, 5.2, 6.0, 1.0, surface=surface_of_a_sealed_box()).openings[0]
+    for other in (again, overlapping):
+        with pytest.raises(PrintersError, match=r"same mouth, .* name each mouth once"):
+            require_apart((once, other))
+    require_apart((once, named(14.4, 5.2, 5.2).openings[0]))
+
+
+def test_both_ends_of_a_short_hole_are_two_openings() -> None:
+    ends = [Opening(f"end {x:+g}", (x, 0.0, 0.0), (x, 0.0, 0.0), 2.0) for x in (-1.0, 1.0)]
+    require_apart(ends)
+    with pytest.raises(PrintersError, match=r"end -1 .* and again"):
+        require_apart([*ends, replace(ends[0], name="again")])
+
+
+def surface_of_a_sealed_box() -> Surface:
+    return merged_surface(*arrays(hollow_box(port=False)))

@@ -11,7 +11,7 @@ from small_solids import arrays, block, bore, hollow_box, port_of
 
 from printers import PrintedModel, PrinterProfile, check_printability
 from printers.measure.part import MeasuredPart
-from printers.orientation.candidates import MOST, stances
+from printers.orientation.candidates import MOST, onto_faces, stances
 from printers.orientation.compare import JudgedStance, compare_orientations
 from printers.orientation.turning import parse_up, turned
 
@@ -84,3 +84,18 @@ def test_there_are_never_many(prusa: PrinterProfile) -> None:
     rng = np.random.default_rng(4)
     part = Manifold.hull_points(rng.normal(size=(60, 3)) * 10)
     assert 1 <= len(stances(MeasuredPart(model(part), prusa).surface)) <= MOST
+
+
+def test_of_a_round_part_only_the_faces_that_may_carry_it_are_looked_at() -> None:
+    """Looking at each of thousands would take a time that grows with their square."""
+    dome = Manifold.sphere(8.0, 200).translate((0, 0, 2)) ^ block((20, 20, 20), (-10, -10, 0))
+    vertices, triangles = arrays(dome)
+    assert len(triangles) > 10_000
+    assert [turning.name for turning in onto_faces(vertices)] == ["Z"]
+
+
+@pytest.mark.parametrize(("sides", "faces"), [(4, 6), (100, 102), (150, 152), (1000, 2)])
+def test_every_face_of_a_prism_that_may_carry_it_is_looked_at(sides: int, faces: int) -> None:
+    """Each side of 150 has 2.1 % of the footprint, each of 1000 has 0.3 %."""
+    prism = Manifold.cylinder(30.0, 5.0, 5.0, sides)
+    assert len(onto_faces(arrays(prism)[0])) == faces

@@ -58,6 +58,13 @@ def with_first_number(text: bytes) -> bytes:
     return re.sub(rb"vertex \S+", b"vertex " + text, TEXT, count=1)
 
 
+def squashed(scale: float) -> bytes:
+    """The box, much narrower along x."""
+    transform = f"{scale!r} 0 0 0 1 0 0 0 1 0 0 0"
+    return built(object_xml(1, MESH), f'<item objectid="1" transform="{transform}"/>')
+
+
+THREE_VERTICES = mesh_xml(VERTICES[:3], np.zeros((4, 3), dtype=int))
 CHAIN = "".join(object_xml(i, ten_of(i + 1)) for i in range(1, 10)) + object_xml(10, MESH)
 ITSELF = object_xml(1, ten_of(1))
 BILLION = b"x" * 80 + struct.pack("<I", 10**9) + b"y" * 5000
@@ -80,6 +87,9 @@ FLAT = f'<item objectid="1" transform="{"0 " * 12}"/>'
         (b"x" * 80 + struct.pack("<I", 3) + BINARY[84:], ".stl", "more behind them"),
         (b"x" * 84, ".stl", "it is cut short, or no STL"),
         (b"\0" * 84, ".stl", "holds no triangle"),
+        (binary_stl(VERTICES, TRIANGLES[:1]), ".stl", "holds 1 triangle; a solid has 4 or more"),
+        (text_stl(VERTICES, TRIANGLES[:3]), ".stl", "holds 3 triangles; a solid has 4 or more"),
+        (built(object_xml(1, THREE_VERTICES)), ".3mf", "holds 3 vertices; a solid has 4 or more"),
         (wrong_number(np.nan), ".stl", "no finite number"),
         (wrong_number(-np.inf), ".stl", "no finite number"),
         (wrong_number(1e30), ".stl", "1e\\+30 mm"),
@@ -131,6 +141,8 @@ FLAT = f'<item objectid="1" transform="{"0 " * 12}"/>'
             ".3mf",
             "flat",
         ),
+        (squashed(1e-9), ".3mf", "flat"),
+        (squashed(-1e-9), ".3mf", "flat"),
         (built(object_xml(1, "<mesh><beamlattice/></mesh>")), ".3mf", "only triangles"),
         (package(model_xml(object_xml(1, MESH), "", "parsec")), ".3mf", "its unit is 'parsec'"),
         (STEP[:60], ".step", "cut short"),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from types import SimpleNamespace
 
 import numpy as np
@@ -162,3 +163,25 @@ def test_a_missing_side_leaks_without_a_place(solids: SimpleNamespace) -> None:
     )
     assert result.verdict == "fail"
     assert "leaks" in result.message
+
+
+@pytest.mark.parametrize("width", [1e-4, 1e-3, 0.03])
+def test_no_leak_has_a_width_of_nothing(solids: SimpleNamespace, width: float) -> None:
+    part = solids.hollow_box() - solids.block((4.0, 2.0, width), (5.0, 9.1, 5.03))
+    result = judged(solids, part, solids.port_of())
+    shown = re.search(r"\(([\d.]+) mm wide\)", result.message)
+    assert shown and float(shown[1]) == pytest.approx(2 * width, rel=0.1)  # hydraulic
+
+
+def test_a_port_that_is_declared_twice_is_one_opening(solids: SimpleNamespace) -> None:
+    result = judged(solids, solids.hollow_box(), solids.port_of(), solids.port_of())
+    assert result.verdict == "fail" and result.measured == "1 cavity, 1 opening"
+    assert "1 opening lies at port and port, where 2 are declared" in result.message
+
+
+def test_a_crack_through_the_port_is_open_beside_its_plug(solids: SimpleNamespace) -> None:
+    part = solids.hollow_box() - solids.block((1.4, 3.6, 0.3), (-0.1, 5.2, 5.05))
+    result = judged(solids, part, solids.port_of())
+    assert result.verdict == "fail" and "still open near" in result.message
+    x, y, z = (float(number) for number in re.findall(r"-?\d+\.\d+", result.where)[:3])
+    assert 0 <= x <= 1.2 and 6.2 <= y <= 8.8 and z == pytest.approx(5.2, abs=0.15)

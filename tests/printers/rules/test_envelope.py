@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
-from printers import PrinterProfile
+from printers import PrintedModel, PrinterProfile, check_printability
 from printers.measure.part import MeasuredPart
 from printers.rules.envelope import check_bed_contact, check_build_volume, check_cross_section
 
@@ -79,3 +80,15 @@ def test_a_box_on_four_thin_legs_stands_only_if_the_legs_are_wide_enough(
         (result,) = check_bed_contact(solids.part(table, prusa))
         assert result.measured == pytest.approx(4 * leg**2, abs=0.1)
         assert result.verdict == verdict
+
+
+@pytest.mark.parametrize("axis", [0, 1, 2])
+def test_a_flat_mesh_is_judged_like_any_other(
+    solids: SimpleNamespace, prusa: PrinterProfile, axis: int
+) -> None:
+    """All of it lies in one plane; upright it has no footprint, and does not stand."""
+    vertices, triangles = solids.arrays(solids.block((5, 5, 5), (0, 0, 0)))
+    flat = PrintedModel(vertices * (np.arange(3) != axis), triangles)
+    results = {r.rule: r for r in check_printability(flat, prusa).rules}
+    assert results["bed_contact"].verdict == ("pass" if axis == 2 else "fail")
+    assert results["minimum_lines"].verdict == results["one_body"].verdict == "fail"

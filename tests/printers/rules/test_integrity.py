@@ -100,6 +100,15 @@ def test_solids_that_keep_apart_do_not(solids: SimpleNamespace) -> None:
     assert judged(check_self_intersection, overlapping(solids, -0.001)).verdict == "pass"
 
 
+@pytest.mark.parametrize("thickness", [0.0, 1e-9, 1e-6])
+def test_a_flat_surface_is_not_called_inside_out(solids: SimpleNamespace, thickness: float) -> None:
+    vertices, triangles = solids.arrays(solids.block((4, 4, 4), (0, 0, 0)))
+    for axis in range(3):
+        flat = vertices * np.where(np.arange(3) == axis, thickness / 4, 1.0)
+        result = judged(check_one_body, meshed(flat, triangles))
+        assert result.verdict == "fail" and "the surface is flat" in result.message
+
+
 @pytest.mark.parametrize("damage", ["open", "inside out"])
 def test_nothing_is_called_airtight_without_a_closed_mesh(
     solids: SimpleNamespace, prusa: PrinterProfile, damage: str

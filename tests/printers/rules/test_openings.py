@@ -117,3 +117,22 @@ def test_a_pinhole_declared_as_a_port_is_airtight_but_refused(
     assert rules["airtightness"].verdict == "pass"
     assert rules["opening_width"].verdict == "fail"
     assert "0.100 mm, less than the 2 mm declared" in rules["opening_width"].message
+
+
+@pytest.mark.parametrize("declared", [0.5, 1.0, 1.5, 1.9])
+def test_a_mouth_wider_than_declared_lets_the_pin_enter(
+    solids: SimpleNamespace, prusa: PrinterProfile, declared: float
+) -> None:
+    """Its reach says how wide the plug must be that closes it."""
+    port = Opening("port", CENTRE, (-1.0, 0.0, 0.0), declared / 2, 1.0)
+    result = width(solids, bored(solids, 1.0), prusa, port)
+    assert (result.verdict, result.measured) == ("pass", round(2 * APOTHEM, 3))
+    assert f"1.999 mm, enough for the {declared:g} mm declared" in result.message
+
+
+def test_a_mouth_wider_than_any_plug_of_the_opening_is_told_so(
+    solids: SimpleNamespace, prusa: PrinterProfile
+) -> None:
+    port = Opening("port", CENTRE, (-1.0, 0.0, 0.0), 0.75)
+    result = width(solids, bored(solids, 1.0), prusa, port)
+    assert result.verdict == "fail" and "wider than the 1.5 mm declared" in result.message

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from printers import PrinterProfile, RuleResult, check_printability
+from printers import Opening, PrintedModel, PrinterProfile, RuleResult, check_printability
 
 
 def thinnest(
@@ -94,3 +95,81 @@ def test_the_walls_of_a_cavity_that_leaks_are_judged_all_the_same(
         lines = thinnest(solids, leaking, prusa, openings=(solids.port_of(wall=wall),))
         assert lines["minimum_lines"].verdict == verdict
         assert lines["minimum_lines"].measured == wall
+
+
+@pytest.mark.parametrize("gap", [0.0, 1e-9, 1e-4, 0.01])
+@pytest.mark.parametrize("rule", ["minimum_layers", "minimum_lines"])
+def test_a_cavity_that_touches_the_outside_has_no_thickness(
+    solids: SimpleNamespace, prusa: PrinterProfile, rule: str, gap: float
+) -> None:
+    """The cavity reaches up to the plane of the roof, or of the side, within rounding or more."""
+    inner, hole = (12.0, 8.0, 8.0), (1.2, 1.2, 1.2)
+    outer = (13.2 + gap, 10.4, 10.4) if rule == "minimum_lines" else (14.4, 10.4, 9.2 + gap)
+    vertices, triangles = solids.arrays(solids.block(outer, (0, 0, 0)))
+    cavity, inwards = solids.arrays(solids.block(inner, hole))
+    both = np.concatenate([triangles, inwards[:, ::-1] + len(vertices)])
+    part = PrintedModel(np.concatenate([vertices, cavity]), both)
+    report = check_printability(part, prusa)
+    results = {r.rule: r for r in report.rules if r.rule.startswith("minimum_")}
+    assert results[rule].verdict == "fail"
+    assert results[rule].measured == pytest.approx(gap, abs=1e-3)
+    needed = prusa.minimum_wall if rule == "minimum_lines" else prusa.minimum_floor
+    assert results[rule].required == pytest.approx(needed)
+    (other,) = {"minimum_layers", "minimum_lines"} - {rule}
+    assert results[other].verdict == "pass"
+
+
+def with_short_boss(solids: SimpleNamespace, wall: float, chamfer: float = 0.0) -> Any:
+    """A hollow box whose bore, and a boss of 1.5 mm around it, end at x = -1.5."""
+    boss = solids.bore(1.0 + wall, (-1.5, 5.2, 5.2), 2.0)
+    if chamfer:
+        cone = solids.Manifold.cylinder(1.0 + wall, 1.0 + wall - chamfer, 2.0 + 2 * wall - chamfer)
+        boss = boss ^ cone.rotate((0.0, 90.0, 0.0)).translate((-1.5, 5.2, 5.2))
+    return solids.hollow_box(port=False) + boss - solids.bore(1.0, (-2.5, 5.2, 5.2), 4.0)
+
+
+SHORT = Opening("opening", (-1.5, 5.2, 5.2), (-1.0, 0.0, 0.0), 1.0)
+
+
+@pytest.mark.parametrize(("wall", "verdict"), [(0.4, "fail"), (0.8, "fail"), (1.2, "pass")])
+def test_the_wall_around_an_opening_nobody_declared_must_seal_too(
+    solids: SimpleNamespace, prusa: PrinterProfile, wall: float, verdict: str
+) -> None:
+    """Behind a mouth, where the cavity is as near to the outside as the mouth is."""
+    lines = thinnest(solids, with_short_boss(solids, wall), prusa, openings=(SHORT,))[
+        "minimum_lines"
+    ]
+    assert lines.verdict == verdict and lines.measured == pytest.approx(wall, abs=0.005)
+
+
+def test_above_a_bore_layers_count(solids: SimpleNamespace, prusa: PrinterProfile) -> None:
+    for roof, verdict in ((0.8, "pass"), (0.6, "fail")):
+        height = 10.4 - roof - 1.0
+        box = solids.hollow_box(port=False) - solids.bore(1.0, (-1.0, 5.2, height), 2.2)
+        port = Opening("port", (0.0, 5.2, height), (-1.0, 0.0, 0.0), 1.0)
+        layers = thinnest(solids, box, prusa, openings=(port,))["minimum_layers"]
+        assert layers.verdict == verdict and layers.measured == pytest.approx(roof, abs=0.005)
+
+
+def test_the_face_around_a_mouth_is_no_thin_wall(
+    solids: SimpleNamespace, prusa: PrinterProfile
+) -> None:
+    """A chamfered boss, and a bore into a round can, whose outside falls away beside the mouth."""
+    chamfered = with_short_boss(solids, 2.0, chamfer=1.0)
+    assert thinnest(solids, chamfered, prusa, openings=(SHORT,))["minimum_lines"].verdict == "pass"
+    can = solids.bore(5.2, (0, 0, 0), 14, axis=2) - solids.bore(4.0, (0, 0, 2), 10, axis=2)
+    drilled = can - solids.bore(1.0, (-6.0, 0.0, 7.0), 4.0)
+    port = Opening("port", (-5.2, 0.0, 7.0), (-1.0, 0.0, 0.0), 1.0)
+    lines = thinnest(solids, drilled, prusa, openings=(port,))["minimum_lines"]
+    assert lines.verdict == "pass" and lines.measured == pytest.approx(1.2, abs=0.01)
+
+
+def test_the_wall_of_a_square_bore_is_measured_too(
+    solids: SimpleNamespace, prusa: PrinterProfile
+) -> None:
+    boss = solids.block((2.0, 3.6, 3.6), (-1.5, 3.4, 3.4))
+    square = solids.block((4.0, 2.0, 2.0), (-2.5, 4.2, 4.2))
+    port = Opening("opening", (-1.5, 5.2, 5.2), (-1.0, 0.0, 0.0), 1.0, reach=1.42)
+    part = solids.hollow_box(port=False) + boss - square
+    lines = thinnest(solids, part, prusa, openings=(port,))["minimum_lines"]
+    assert lines.verdict == "fail" and lines.measured == pytest.approx(0.8, abs=0.001)

@@ -14,7 +14,7 @@ from small_solids import arrays, block, bore, hollow_box, port_of
 
 from bellows_design.design.shipped import load_design, shipped_designs
 from bellows_design.printability import port_opening
-from printers import PrintabilityReport, PrintedModel, check_printability, load_profile
+from printers import RULES, PrintabilityReport, PrintedModel, check_printability, load_profile
 
 Bellows = Callable[..., tuple[int, str, str]]
 VERTICES, TRIANGLES = arrays(hollow_box())
@@ -128,6 +128,16 @@ def test_an_opening_may_be_named(bellows: Bellows, tmp_path: Path) -> None:
     assert status == 1 and {"airtightness", "opening_width"} <= failed
 
 
+def test_a_port_with_a_crack_into_it_never_passes(bellows: Bellows, tmp_path: Path) -> None:
+    cracked = hollow_box() - block((1.4, 3.6, 0.3), (-0.1, 5.2, 5.05))
+    path = written(tmp_path / "crack.stl", binary_stl(*arrays(cracked)))
+    status, out, err = bellows("check", path)
+    assert status == 2 and "--opening X,Y,Z,DIAMETER" in err and out == ""
+    status, found = answer(bellows, path, "--opening", "0,5.2,5.2,2")
+    failed = {each["rule"] for each in found["rules"] if each["verdict"] == "fail"}
+    assert status == 1 and failed == {"airtightness"}
+
+
 def test_a_mouth_that_is_not_round_can_be_sealed_and_judged(
     bellows: Bellows, tmp_path: Path
 ) -> None:
@@ -149,9 +159,19 @@ def test_a_mesh_that_does_not_close_fails_by_its_rules(bellows: Bellows, tmp_pat
     [
         (("--set", "bubble_thickness=1"), "a file has no parameters"),
         (("--opening", "1,2"), "X,Y,Z"),
-        (("--opening", "0,5,5,-1"), "diameter"),
+        (("--opening", "0,5,5,-1"), "between 0.05 and 200 mm"),
+        (("--opening", "0,5.2,5.2,1e-300"), "between 0.05 and 200 mm"),
+        (("--opening", "0,5.2,5.2,0.049"), "between 0.05 and 200 mm"),
+        (("--opening", "0,5.2,5.2,201"), "between 0.05 and 200 mm"),
+        (("--opening", "0,5.2,5.2,nan"), "X,Y,Z,DIAMETER"),
+        (("--opening", "0,5.2,5.2", "--opening", "0,5,5"), "name each mouth once"),
         (("--opening", "auto", "--opening", "0,5,5"), "auto alone"),
-        (("--up", "up"), "up is 'up'"),
+        (("--up", "up"), "--up is “up”; it must be X, -X, Y, -Y, Z, -Z or a vector"),
+        (("--up=",), "--up is “”; it must be"),
+        (("--up=", "--orientation", "auto"), "one of them"),
+        (("--orientation=",), "it can be auto"),
+        (("--printer=",), "printer profile"),
+        (("--filament=",), "filament"),
         (("--up", "X", "--orientation", "auto"), "one of them"),
         (("--orientation", "best"), "it can be auto"),
         (("--picture", "leak.png"), "it needs --slice"),
@@ -172,11 +192,23 @@ def test_options_that_cannot_be_meant_get_one_sentence(
     assert set(tmp_path.iterdir()) == before
 
 
+@pytest.mark.parametrize("scale", [0.01, 1e3])
+def test_a_part_of_a_size_that_cannot_be_meant_is_named(
+    bellows: Bellows, tmp_path: Path, scale: float
+) -> None:
+    path = written(tmp_path / "units.stl", binary_stl(scale * VERTICES, TRIANGLES))
+    status, out, err = bellows("check", path)
+    assert status == 2 and out == "" and "units.stl' cannot be taken as a part" in err
+    assert "are the units millimetres?" in err
+
+
 @pytest.mark.parametrize(
     ("name", "arguments", "words"),
     [
         ("finger", ("--opening", "0,0,0"), "a design declares its port"),
         ("finger", ("--up", "X"), "only a part in a file"),
+        ("finger", ("--up=",), "only a part in a file"),
+        ("finger", ("--orientation", "auto"), "only a part in a file"),
         ("part.gcode", (), "--opening X,Y,Z,DIAMETER"),
         ("part.gcode", ("--opening", "1,2,3"), "--opening X,Y,Z,DIAMETER"),
         ("part.gcode", ("--opening", "1,2,3,4", "--slice"), "sliced already"),
@@ -199,15 +231,18 @@ def test_another_filament_is_taken_with_its_settings(bellows: Bellows, box: str)
     assert answer(bellows, box, "--filament", "fiberflex_40d")[0] == 0
 
 
+@pytest.mark.parametrize(("named", "words"), [("", "no slicer"), ("/nope", "names '/nope'")])
 def test_without_a_slicer_the_geometric_rules_stand_and_that_is_said(
-    bellows: Bellows, box: str, monkeypatch: pytest.MonkeyPatch
+    bellows: Bellows, box: str, monkeypatch: pytest.MonkeyPatch, named: str, words: str
 ) -> None:
-    monkeypatch.setenv("BELLOWS_SLICER", "")
+    monkeypatch.setenv("BELLOWS_SLICER", named)
     status, found = answer(bellows, box, "--slice")
     assert status == 0 and found["slicing"] is None
-    assert any("no slicer" in note for note in found["notes"])
+    assert any(words in note for note in found["notes"])
     status, found = answer(bellows, box, "--slice", "--require-slicer")
-    assert status == 1 and found["rules"][-1]["rule"] == "leak_test"
+    rule = found["rules"][-1]
+    assert status == 1 and rule["rule"] == "leak_test" and words in rule["message"]
+    assert (rule["severity"], rule["source"]) == ("fail", RULES["leak_test"].source)
 
 
 @pytest.mark.slow
