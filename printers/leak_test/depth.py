@@ -38,6 +38,9 @@ FULL = 16
 
 FARTHEST = 65_000
 
+SOURCE, DRAIN, SHUT = 1, 2, 3
+"""Of coarse cells: air of the cavity, air outside, plugs."""
+
 CLOSED_VOID = 1.66
 """F up to which a void counts as closed by melt."""
 
@@ -76,7 +79,8 @@ def thinnest_seal(field: Field, marks: Levels, open_from: int, stretch: float) -
     plastic = _plastic_of_levels(sharpness)
     steps = round((float(ratio_of(open_from)) - 1) * sharpness)
     grid = marks.reshape(field.levels.shape)
-    share, ends = _pooled(field.levels, grid, factor, plastic, open_from, steps)
+    kinds = (CAVITY, OUTSIDE, CLOSED, AIR)
+    share, ends = _pooled(field.levels, grid, factor, plastic, open_from, steps, kinds)
     thickness = np.diff(field.heights) * stretch / side
     cells = _least_plastic(share.ravel(), ends.ravel(), thickness, *share.shape[1:])
     if not len(cells):
@@ -107,13 +111,21 @@ def _plastic(levels: Levels, air: NDArray[np.int16], b: int, a: int, plastic: Le
 
 @njit(cache=True, nogil=True)
 def _pooled(
-    levels: Levels, marks: Levels, factor: int, plastic: Levels, open_from: int, steps: int
+    levels: Levels,
+    marks: Levels,
+    factor: int,
+    plastic: Levels,
+    open_from: int,
+    steps: int,
+    kinds: tuple[int, int, int, int],
 ) -> tuple[Levels, Levels]:
     """Share of plastic and mark of cells of `factor` x `factor` finer ones.
 
-    A cell has the mark that half of them have. Air are the cells from the level `open_from` on, and
-    those beyond the beads' sides that are `steps` from one; other voids are closed.
+    A cell has the mark that half of them have, by their middles. Air are the cells from the level
+    `open_from` on, and those beyond the beads' sides that are `steps` from one; other voids are
+    closed. `kinds` are the marks of cavity, outside and plugs, and the level of a bead's side.
     """
+    in_cavity, out_of_it, in_plug, bead_side = kinds
     nz, ny, nx = levels.shape
     shape = nz, (ny + factor - 1) // factor, (nx + factor - 1) // factor
     share = np.zeros(shape, dtype=np.uint8)
@@ -126,7 +138,7 @@ def _pooled(
         for step in range(steps):
             for j in range(1, ny - 1):
                 for i in range(1, nx - 1):
-                    if air[j, i] == 0 and levels[k, j, i] >= AIR:
+                    if air[j, i] == 0 and levels[k, j, i] >= bead_side:
                         for near in (air[j, i - 1], air[j, i + 1], air[j - 1, i], air[j + 1, i]):
                             if 0 < near <= step + 1:
                                 air[j, i] = step + 2
@@ -139,16 +151,17 @@ def _pooled(
                         total += _plastic(levels[k], air, b, a, plastic)
                         count += 1
                         own = marks[k, b, a]
-                        cavity += own == CAVITY
-                        outside += own == OUTSIDE
-                        plug += own == CLOSED
+                        reaches = levels[k, b, a] >= open_from
+                        cavity += own == in_cavity and reaches
+                        outside += own == out_of_it and reaches
+                        plug += own == in_plug
                 share[k, j, i] = int(total / count + 0.5)
                 if plug:
-                    ends[k, j, i] = CLOSED
+                    ends[k, j, i] = SHUT
                 elif 2 * cavity >= count:
-                    ends[k, j, i] = CAVITY
+                    ends[k, j, i] = SOURCE
                 elif 2 * outside >= count:
-                    ends[k, j, i] = OUTSIDE
+                    ends[k, j, i] = DRAIN
     return share, ends
 
 
@@ -174,14 +187,14 @@ def _least_plastic(share: Levels, ends: Levels, thickness: Floats, ny: int, nx: 
     distance = np.full(len(share), FARTHEST, dtype=np.uint16)
     origin = np.full(len(share), 255, dtype=np.uint8)
     for cell in range(len(share)):
-        if ends[cell] == CAVITY:
+        if ends[cell] == SOURCE:
             distance[cell] = 0
     scanned, now, cell = 0, 0, 0
     while scanned < len(share) or waiting:
         if scanned < len(share):  # the rim of the cavity first, then the buckets
             cell = scanned
             scanned += 1
-            if ends[cell] != CAVITY:
+            if ends[cell] != SOURCE:
                 continue
         else:
             entry = head[now % most]
@@ -194,14 +207,14 @@ def _least_plastic(share: Levels, ends: Levels, thickness: Floats, ny: int, nx: 
             waiting -= 1
             if distance[cell] != now:
                 continue
-            if ends[cell] == OUTSIDE:
+            if ends[cell] == DRAIN:
                 break
         k = cell // layer
         for number in range(27):
             beside = cell + offsets[number]
             if beside < 0 or beside >= len(share) or distance[beside] <= now:
                 continue
-            if ends[beside] == CLOSED:
+            if ends[beside] == SHUT:
                 continue
             dz, flat = number // 9 - 1, flats[number]
             if dz == 0:
@@ -228,7 +241,7 @@ def _least_plastic(share: Levels, ends: Levels, thickness: Floats, ny: int, nx: 
             head[total % most] = entry
             waiting += 1
     path = [np.int64(cell)]
-    if ends[cell] != OUTSIDE:
+    if ends[cell] != DRAIN:
         path.clear()
         return np.array([0])[:0]
     while origin[cell] != 255:

@@ -1,4 +1,4 @@
-"""The field of scaled distances to the beads, layer by layer, one byte a cell.
+"""The field of scaled distances to the beads, layer by layer, two bytes a cell.
 
 Layers are the intervals between the heights at which beads begin or end, so that beads of different
 heights (a first layer, thick bridges, layers that vary) stand beside each other as they are
@@ -18,12 +18,12 @@ from printers.arrays import Floats, Ints
 from printers.errors import PrintersError
 from printers.gcode.beads import Beads
 from printers.leak_test import painting
-from printers.leak_test.painting import COLUMNS, Levels, paint_layer
+from printers.leak_test.painting import COLUMNS, Levels, link_layers, paint_layer
 
 CELLS_A_LINE = 8
 FEWEST_CELLS_A_LINE = 3
 MOST_CELLS = 300_000_000
-"""With marks, the coarser cells of the depth and the fronts of the floods they take 1.5 GB."""
+"""With marks, the coarser cells of the depth and the fronts of the floods they take 1.8 GB."""
 
 SAME_HEIGHT = 0.02
 """mm. Beads that begin or end so near each other do so at the same height."""
@@ -36,6 +36,8 @@ class Field:
     Attributes:
         levels: F as a byte, see `ratio_of`. The lowest and the highest layer are air.
             *Shape:* `(nz, ny, nx)`
+        links: The largest F, as a byte, that a cell and the one above it have at one point.
+            *Shape:* `(nz, ny, nx)`, the last layer 0
         heights: Of the layers' lower sides and the last one's upper side, mm.
             *Shape:* `(nz + 1,)`
         corner: Centre of the first cell in the plane, mm.
@@ -45,6 +47,7 @@ class Field:
     """
 
     levels: Levels
+    links: Levels
     heights: Floats
     corner: tuple[float, float]
     voxel: float
@@ -114,16 +117,19 @@ def paint(beads: Beads, voxel: float, line_width: float, far: bool = True) -> Fi
     nx, ny = (np.ceil((high - low) / voxel).astype(int) + 2 * rim).tolist()
     heights = _heights(beads)
     levels = np.full((len(heights) + 1, ny, nx), 255, dtype=np.uint8)
-    scratch = np.empty((5, ny, nx), dtype=np.float32)
+    links = np.zeros_like(levels)
+    below, planes = (np.full((7, ny, nx), np.inf, dtype=np.float32) for _ in range(2))
+    below[[1, 2, 4, 5]], rise = 0.0, np.empty((ny, nx), dtype=np.float32)
     table, step = _table(beads), 2 * voxel / line_width if far else 0.0
-    for layer, members in enumerate(_members(beads, heights), start=1):
-        if len(members):
-            rows = table[members]
-            paint_layer(rows, corner[0], corner[1], voxel, step, scratch, levels[layer])
+    for layer, members in enumerate([*_members(beads, heights), np.zeros(0, dtype=int)], start=1):
+        rows = table[members]
+        paint_layer(rows, corner[0], corner[1], voxel, step, planes, rise, levels[layer])
+        link_layers(below, planes, voxel, levels[layer - 1], levels[layer], links[layer - 1])
+        below, planes = planes, below
     ends = 2 * heights[0] - heights[1], 2 * heights[-1] - heights[-2]
     around = np.concatenate([ends[:1], heights, ends[1:]])
     x, y = corner.tolist()
-    return Field(levels, around, (x, y), voxel, line_width, rim)
+    return Field(levels, links, around, (x, y), voxel, line_width, rim)
 
 
 def _outline(beads: Beads) -> tuple[Floats, Floats]:

@@ -1,7 +1,9 @@
 """Floods through the field, from cell to neighbouring cell by their six sides.
 
-`levels` and `marks` are flat arrays of bytes, `ny` and `nx` the cells of a layer. A flood enters
-free cells only and never leaves the grid: its outermost cells must not be free.
+`levels`, `links` and `marks` are flat arrays of bytes, `ny` and `nx` the cells of a layer. A step
+within a layer is as wide as both of its cells, one to the layer above as the link says. Since a
+link is that of the widest common point of two cells, each of them is at least as wide. A flood
+enters free cells only and never leaves the grid: its outermost cells must not be free.
 """
 
 from __future__ import annotations
@@ -20,35 +22,59 @@ STEP = 8
 
 
 @njit(cache=True, nogil=True)
+def _width(levels: Levels, links: Levels, cell: int, layer: int) -> int:
+    """The highest level within a cell."""
+    return max(levels[cell], links[cell], links[cell - layer])
+
+
+@njit(cache=True, nogil=True)
+def _holds(levels: Levels, links: Levels, cell: int, layer: int, least: int) -> bool:
+    """Whether there is at least a level within a cell."""
+    return levels[cell] >= least or links[cell] >= least or links[cell - layer] >= least
+
+
+@njit(cache=True, nogil=True)
 def fill(
-    levels: Levels, marks: Levels, start: Ints, least: int, mark: int, ny: int, nx: int
+    levels: Levels,
+    links: Levels,
+    marks: Levels,
+    start: Ints,
+    least: int,
+    mark: int,
+    ny: int,
+    nx: int,
 ) -> bool:
     """Mark all free cells of at least the level `least` that are connected with the `start`.
 
     Runs of cells along x at a time. Returns whether the outside was touched.
     """
-    besides = np.array([nx, -nx, ny * nx, -ny * nx])
+    layer = ny * nx
     stack = np.empty(len(start) + 1024, dtype=np.int32)
     stack[: len(start)] = start
     count, touched = len(start), False
     while count:
         count -= 1
         left = right = stack[count]
-        if marks[left] != FREE or levels[left] < least:
+        if marks[left] != FREE or not _holds(levels, links, left, layer, least):
             continue
-        while marks[left - 1] == FREE and levels[left - 1] >= least:
+        while marks[left - 1] == FREE and _holds(levels, links, left - 1, layer, least):
             left -= 1
-        while marks[right + 1] == FREE and levels[right + 1] >= least:
+        while marks[right + 1] == FREE and _holds(levels, links, right + 1, layer, least):
             right += 1
         touched |= marks[left - 1] == OUTSIDE or marks[right + 1] == OUTSIDE
         marks[left : right + 1] = mark
         if count + 2 * (right - left) + 8 > len(stack):
             stack = np.concatenate((stack, np.empty(len(stack) + 4 * nx, dtype=np.int32)))
-        for beside in besides:
+        for beside in (nx, -nx, layer, -layer):
             within = False
             for cell in range(left + beside, right + beside + 1):
-                touched |= marks[cell] == OUTSIDE
-                enters = marks[cell] == FREE and levels[cell] >= least
+                enters = marks[cell] == FREE or marks[cell] == OUTSIDE
+                if enters and abs(beside) == layer:
+                    enters = links[min(cell, cell - beside)] >= least
+                elif marks[cell] == FREE:
+                    enters = _holds(levels, links, cell, layer, least)
+                touched |= enters and marks[cell] == OUTSIDE
+                enters &= marks[cell] == FREE
                 if enters and not within:
                     stack[count] = cell
                     count += 1
@@ -57,28 +83,31 @@ def fill(
 
 
 @njit(cache=True, nogil=True)
-def widest(levels: Levels, marks: Levels, ny: int, nx: int) -> int:
+def widest(levels: Levels, links: Levels, marks: Levels, ny: int, nx: int) -> int:
     """The highest level that lets a path from the cavity reach the outside; -1 for none.
 
     Cells that are marked as cavity or outside are there already. The front always advances where
     the level is highest. Each level has a queue, first in, first out: a linked list in one pool.
+    A cell that is reached as widely as can be is marked as seen; one that is reached through a
+    narrow link stays free, for a wider way may be found, and waits with its complement.
     """
-    steps = np.array([1, -1, nx, -nx, ny * nx, -ny * nx])
+    layer = ny * nx
+    steps = np.array([1, -1, nx, -nx, layer, -layer])
     head = np.full(256, -1, dtype=np.int64)
     tail = np.full(256, -1, dtype=np.int64)
     cells = np.empty(1 << 16, dtype=np.int32)
     after = np.empty(1 << 16, dtype=np.int32)
     used, free = 0, -1
-    cell, level = 0, 255
+    cell, level, reached = 0, 255, -1
     scanning = True
-    while level >= 0:
+    while level > reached:
         if scanning:  # the rim of the cavity first, then the queues
             while cell < len(marks) and marks[cell] != CAVITY:
                 cell += 1
             if cell == len(marks):
-                scanning = False
+                scanning, level = False, 255
                 continue
-            level = levels[cell]
+            level = _width(levels, links, cell, layer)
         else:
             entry = head[level]
             if entry < 0:
@@ -87,15 +116,24 @@ def widest(levels: Levels, marks: Levels, ny: int, nx: int) -> int:
             cell = cells[entry]
             head[level] = after[entry]
             after[entry], free = free, entry
+            if cell < 0:
+                cell = ~cell
+                if marks[cell] != FREE:
+                    continue
+                marks[cell] = SEEN
         for step in steps:
             beside = cell + step
-            if marks[beside] == OUTSIDE and not scanning:
-                return level
-            if marks[beside] == OUTSIDE:
-                return min(levels[cell], levels[beside])
-            if marks[beside] != FREE:
+            if marks[beside] != FREE and marks[beside] != OUTSIDE:
                 continue
-            marks[beside] = SEEN
+            own = 255 if marks[beside] == OUTSIDE else _width(levels, links, beside, layer)
+            best = own = min(level, own)
+            if abs(step) == layer:
+                own = min(level, links[min(cell, beside)])
+            if marks[beside] == OUTSIDE:
+                reached = max(reached, own)
+                continue
+            if own == best:
+                marks[beside] = SEEN
             if free >= 0:
                 entry, free = free, after[free]
             else:
@@ -104,8 +142,7 @@ def widest(levels: Levels, marks: Levels, ny: int, nx: int) -> int:
                     after = np.concatenate((after, np.empty_like(after)))
                 entry = used
                 used += 1
-            cells[entry], after[entry] = beside, -1
-            own = min(level, levels[beside])
+            cells[entry], after[entry] = beside if own == best else ~beside, -1
             if head[own] < 0:
                 head[own] = entry
             else:
@@ -114,16 +151,19 @@ def widest(levels: Levels, marks: Levels, ny: int, nx: int) -> int:
         if scanning:
             cell += 1
             level = 255
-    return -1
+    return reached
 
 
 @njit(cache=True, nogil=True)
-def shortest_crossing(levels: Levels, marks: Levels, least: int, ny: int, nx: int) -> Ints:
+def shortest_crossing(
+    levels: Levels, links: Levels, marks: Levels, least: int, ny: int, nx: int
+) -> Ints:
     """Cells of a path of fewest steps from the outside to the cavity, at least `least` high.
 
     Its ends lie in the air of either. Marks the cells it sees. Empty if there is no path.
     """
-    steps = np.array([1, -1, nx, -nx, ny * nx, -ny * nx])
+    layer = ny * nx
+    steps = np.array([1, -1, nx, -nx, layer, -layer])
     queue = np.empty(1 << 16, dtype=np.int32)
     count, done = 0, 0
     scanned = 0
@@ -141,12 +181,14 @@ def shortest_crossing(levels: Levels, marks: Levels, least: int, ny: int, nx: in
             break
         for number in range(6):
             beside = cell + steps[number]
+            if number >= 4 and links[min(cell, beside)] < least:
+                continue
             if marks[beside] == OUTSIDE:
                 last, found = cell, beside
                 break
             if marks[beside] != FREE and marks[beside] != SEEN:
                 continue
-            if levels[beside] < least:
+            if number < 4 and not _holds(levels, links, beside, layer, least):
                 continue
             marks[beside] = STEP + number
             if count == len(queue):
@@ -161,3 +203,17 @@ def shortest_crossing(levels: Levels, marks: Levels, least: int, ny: int, nx: in
             break
         cell -= steps[marks[cell] - STEP]
     return np.array(path) if found >= 0 else np.zeros(0, dtype=np.int64)
+
+
+@njit(cache=True, nogil=True)
+def widths_along(levels: Levels, links: Levels, path: Ints, ny: int, nx: int) -> Levels:
+    """The level of every cell of a path, or that of the step to the next one if it is lower."""
+    layer = ny * nx
+    found = np.empty(len(path), dtype=np.uint8)
+    for number in range(len(path)):
+        cell = path[number]
+        found[number] = _width(levels, links, cell, layer)
+        if number + 1 < len(path) and abs(path[number + 1] - cell) == layer:
+            link = links[min(cell, path[number + 1])]
+            found[number] = min(found[number], link)
+    return found

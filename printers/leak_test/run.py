@@ -11,7 +11,7 @@ from printers.arrays import Floats, Ints
 from printers.errors import PrintersError
 from printers.gcode.beads import Beads
 from printers.leak_test.depth import CLOSED_VOID, thinnest_seal
-from printers.leak_test.field import Field, grid_for, level_of, paint, ratio_of
+from printers.leak_test.field import Field, grid_for, level_of, paint
 from printers.leak_test.flood import CAVITY, CLOSED, OUTSIDE
 from printers.leak_test.frames import Transform, matrix_of, moved
 from printers.leak_test.painting import AIR, Levels
@@ -73,7 +73,7 @@ def leak_test(
     side, notes = grid_for(printed, voxel, profile.line_width)
     field = paint(printed, side, profile.line_width)
     paths = _paths(field, openings)
-    leaks = tuple(_leak(field, cells, to_part) for _, cells in paths if len(cells))
+    leaks = tuple(_leak(field, path, cells, to_part) for path, cells in paths if len(cells))
     depth, way = _depth(field, openings, paths[0][0], leaks, profile, to_part)
     hold = None
     if seams and not paths[0][0].is_open:
@@ -114,13 +114,10 @@ def _paths(field: Field, openings: Sequence[Opening]) -> list[tuple[WidestPath, 
     return found
 
 
-def _leak(field: Field, cells: Ints, to_part: Floats) -> Leak:
-    cell = narrowest(field, cells)
-    level = int(field.levels.ravel()[cell])
-    ratio = float(ratio_of(level))
-    width = max(ratio - 1, 0.0) * field.line_width
-    middle = field.place_of(np.array([cell]))
-    return Leak(ratio, width, _place(moved(to_part, middle)[0]), level >= WIDEST)
+def _leak(field: Field, path: WidestPath, cells: Ints, to_part: Floats) -> Leak:
+    width = max(path.ratio - 1, 0.0) * field.line_width
+    middle = field.place_of(np.array([narrowest(field, cells)]))
+    return Leak(path.ratio, width, _place(moved(to_part, middle)[0]), path.level >= WIDEST)
 
 
 def _depth(

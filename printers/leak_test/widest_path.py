@@ -13,7 +13,7 @@ import numpy as np
 
 from printers.arrays import Floats, Ints
 from printers.leak_test.field import Field, ratio_of
-from printers.leak_test.flood import CAVITY, OUTSIDE, fill, shortest_crossing, widest
+from printers.leak_test.flood import CAVITY, OUTSIDE, fill, shortest_crossing, widest, widths_along
 from printers.leak_test.painting import AIR, Levels
 from printers.leak_test.plugs import cavity_start, fresh_marks
 from printers.model import Opening
@@ -47,25 +47,24 @@ def widest_path(
     field: Field, openings: Sequence[Opening], blocked: Sequence[Floats] = ()
 ) -> WidestPath:
     """The widest path that passes no plug and none of the balls around `blocked`."""
-    levels, shape = field.levels.ravel(), field.levels.shape[1:]
     marks, touched = air(field, openings, AIR, blocked)
     if not touched:
-        return WidestPath(int(widest(levels, marks, *shape)), marks)
+        return WidestPath(int(widest(*_flat(field), marks, *field.levels.shape[1:])), marks)
     marks = fresh_marks(field, openings, blocked)
     marks[cavity_start(field, openings)] = CAVITY
-    level = int(widest(levels, marks, *shape))
+    level = int(widest(*_flat(field), marks, *field.levels.shape[1:]))
     return WidestPath(level, air(field, openings, level + 1, blocked)[0])
 
 
 def crossing(field: Field, path: WidestPath) -> Ints:
     """Cells of the path from the air of the cavity to that outside, in fewest steps."""
-    levels, marks = field.levels.ravel(), path.marks.copy()
-    return np.asarray(shortest_crossing(levels, marks, path.level, *field.levels.shape[1:])[::-1])
+    marks, shape = path.marks.copy(), field.levels.shape[1:]
+    return np.asarray(shortest_crossing(*_flat(field), marks, path.level, *shape)[::-1])
 
 
 def narrowest(field: Field, cells: Ints) -> int:
     """The narrowest cell of a path; the middle one if several are as narrow."""
-    own = field.levels.ravel()[cells]
+    own = widths_along(*_flat(field), cells, *field.levels.shape[1:])
     narrow = np.flatnonzero(own == own.min())
     return int(cells[narrow[len(narrow) // 2]])
 
@@ -74,12 +73,16 @@ def air(
     field: Field, openings: Sequence[Opening], least: int, blocked: Sequence[Floats] = ()
 ) -> tuple[Levels, bool]:
     """Marks of the air from the level `least` on, and whether cavity and outside are connected."""
-    levels, shape = field.levels.ravel(), field.levels.shape[1:]
+    levels, shape = _flat(field), field.levels.shape[1:]
     start, marks = cavity_start(field, openings), fresh_marks(field, openings, blocked)
-    touched = bool(fill(levels, marks, start, least, CAVITY, *shape))
+    touched = bool(fill(*levels, marks, start, least, CAVITY, *shape))
     marks[start] = CAVITY
-    fill(levels, marks, _beside_outside(field), least, OUTSIDE, *shape)
+    fill(*levels, marks, _beside_outside(field), least, OUTSIDE, *shape)
     return marks, touched
+
+
+def _flat(field: Field) -> tuple[Levels, Levels]:
+    return field.levels.ravel(), field.links.ravel()
 
 
 def _beside_outside(field: Field) -> Ints:

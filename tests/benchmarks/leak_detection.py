@@ -3,6 +3,7 @@
     python tests/benchmarks/leak_detection.py                 all that is not in the JSON yet
     python tests/benchmarks/leak_detection.py finger pin      rows whose name has one of these
     python tests/benchmarks/leak_detection.py --again pin     these rows anew
+    python tests/benchmarks/leak_detection.py --table         the table of docs/leak-test.md
 
 Needs PrusaSlicer. A row is a process of its own, so that its memory can be measured; it is printed
 as it comes and kept in `leak_detection.json`.
@@ -67,6 +68,7 @@ CASES: dict[str, Case] = {
     "finger, seam nearest": Case(finger, SOUND, {"seam": "nearest"}),
     "prototype_1": Case(partial(parts.shipped, "prototype_1"), SOUND),
     "prototype_2": Case(partial(parts.shipped, "prototype_2"), SOUND),
+    "prototype_2_indent": Case(partial(parts.shipped, "prototype_2_indent"), SOUND),
     "prototype_1, overlap 25 %": Case(
         partial(parts.shipped, "prototype_1"), SOUND, {"infill_overlap": 25.0}
     ),
@@ -192,14 +194,36 @@ def is_expected(case: Case, test: LeakTest, part: parts.LeakingPart) -> bool:
     return test.ratio >= low and (part.place is None or (near is not None and near <= 1.0))
 
 
+def table(rows: Mapping[str, Mapping[str, Any]]) -> str:
+    """The rows as they stand in the documentation."""
+    names = ("part or slicing", "r\\*", "verdict", "leak, mm", "depth, lines", "beside voids")
+    more = ("`printed_depth`", "seams hold, mm", "from the fault, mm")
+    lines = ["| " + " | ".join((*names, *more)) + " |", "|---" * len((*names, *more)) + "|"]
+    for name, row in rows.items():
+        leaks = row["verdict"] == "leaks"
+        away = row["leak_distance"] if leaks else row["depth_distance"]
+        values = (
+            *(name, f"{row['ratio']:.2f}", row["verdict"]),
+            *(row["width"] if leaks else None, row["lines"], row["beside_voids"], row["depth"]),
+            *(row["seams"], away),
+        )
+        lines.append(
+            "| " + " | ".join("–" if each is None else str(each) for each in values) + " |"
+        )
+    return "\n".join(lines)
+
+
 def main(arguments: list[str]) -> None:
     """Measure what is asked for, a row in a process of its own."""
     if arguments[:1] == ["--row"]:
         print(json.dumps(measure(CASES[arguments[1]])))
         return
+    rows: dict[str, Any] = json.loads(RESULTS.read_text()) if RESULTS.exists() else {}
+    if arguments == ["--table"]:
+        print(table(rows))
+        return
     again = "--again" in arguments
     asked = [word for word in arguments if not word.startswith("--")]
-    rows: dict[str, Any] = json.loads(RESULTS.read_text()) if RESULTS.exists() else {}
     print("| part | error | " + " | ".join(COLUMNS) + " |\n|" + "---|" * (len(COLUMNS) + 2))
     for name in CASES:
         if asked and not any(word in name for word in asked):

@@ -10,10 +10,22 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from bead_boxes import CAVITY, PITCH, WIDTH, Box, beads_of, in_pieces, joined_beads, with_gap
+from bead_boxes import (
+    CAVITY,
+    PITCH,
+    WIDTH,
+    Box,
+    beads_of,
+    in_pieces,
+    joined_beads,
+    rotation,
+    with_gap,
+)
 
 from printers import Opening, PrintersError
 from printers.leak_test.field import Field, paint
+from printers.leak_test.field import ratio_of as field_ratio
+from printers.leak_test.painting import SHALLOWEST
 from printers.leak_test.plugs import cavity_start
 from printers.leak_test.widest_path import crossing, narrowest, widest_path
 
@@ -50,16 +62,52 @@ def test_a_gap_in_one_of_three_loops_is_closed_by_the_others() -> None:
     assert ratio_of(box) == pytest.approx(PITCH / WIDTH, abs=0.01)
 
 
-def test_gaps_that_do_not_lie_on_each_other_are_closed() -> None:
-    """The innermost loop is open below, the others above: their beads overlap by a tenth.
-
-    A cell holds the largest F within it, of either layer for itself: voids that meet only above
-    each other seem to overlap by up to a cell more, a quarter of F at eight cells a line.
-    """
+@pytest.mark.parametrize("voxel", [0.1, VOXEL, VOXEL / 2])
+def test_gaps_that_do_not_lie_on_each_other_are_closed(voxel: float) -> None:
+    """The innermost loop is open below, the others above: their beads overlap by a tenth."""
     box = Box(wall=with_gap(0.3, lambda z, number: (number == 0) == (z < 3)))
-    coarse, fine = ratio_of(box), ratio_of(box, VOXEL / 2)
-    assert PITCH / WIDTH < fine < coarse < PITCH / WIDTH + VOXEL / (WIDTH / 2)
-    assert fine < PITCH / WIDTH + VOXEL / 2 / (WIDTH / 2)
+    assert ratio_of(box, voxel) == pytest.approx(PITCH / WIDTH, abs=0.03)
+
+
+SPACED = 0.5
+"""mm between the lines of a grate: half-way between two of them F is 0.5 / 0.42 = 1.19."""
+
+
+def step_of(turn: float, shift: float, angle: float, voxel: float) -> float:
+    """The widest step between two grates on each other, the upper one turned and shifted."""
+    layers = []
+    for layer, (own, aside) in enumerate([(0.0, 0.0), (turn, shift)]):
+        for number in range(-8, 9):
+            ends = np.array([[-4.0, number * SPACED + aside], [4.0, number * SPACED + aside]])
+            line = ends @ rotation(own + angle).T
+            layers.append(beads_of(line, 0.2 * (layer + 1), 0.2, 20 * layer + number))
+    field = paint(joined_beads(layers), voxel, LINE)
+    middle = [slice(count // 2 - round(1 / voxel), count // 2 + round(1 / voxel))
+              for count in field.levels.shape[1:]]  # fmt: skip
+    return float(field_ratio(field.links[1][tuple(middle)].max()))
+
+
+@pytest.mark.parametrize("voxel", [0.1, VOXEL, VOXEL / 2])
+@pytest.mark.parametrize("angle", [0.0, 17.0, 45.0, 73.0])
+def test_voids_of_two_layers_meet_where_they_cross(angle: float, voxel: float) -> None:
+    assert step_of(90.0, 0.13, angle, voxel) == pytest.approx(SPACED / WIDTH, abs=0.03)
+
+
+@pytest.mark.parametrize("voxel", [0.1, VOXEL, VOXEL / 2])
+@pytest.mark.parametrize("angle", [0.0, 17.0, 45.0, 73.0])
+@pytest.mark.parametrize("shift", [0.0125, 0.025, 0.05, 0.1, 0.15])
+def test_a_step_between_voids_beside_each_other_is_their_widest_common_point(
+    shift: float, angle: float, voxel: float
+) -> None:
+    """Half-way between two ridges at the distance d either F is (p - d) / w."""
+    assert step_of(0.0, shift, angle, voxel) == pytest.approx((SPACED - shift) / WIDTH, abs=0.03)
+
+
+@pytest.mark.parametrize("voxel", [0.1, VOXEL, VOXEL / 2])
+@pytest.mark.parametrize("angle", [0.0, 17.0, 45.0])
+def test_there_is_no_step_between_voids_half_a_line_apart(angle: float, voxel: float) -> None:
+    """F is 0.6 at most; below `SHALLOWEST` what is found may be too large, never beyond it."""
+    assert step_of(0.0, SPACED / 2, angle, voxel) <= SHALLOWEST + 0.01
 
 
 def test_air_goes_up_from_layer_to_layer() -> None:
