@@ -60,10 +60,11 @@ def find_cavities(surface: Surface) -> tuple[Cavity, ...]:
     looks = look_around(surface)
     sky = exposure(surface, looks)
     for dark in DARK:
-        found = _cavities(surface, sky, dark)
-        if found:
+        inside = sky.known & (sky.share < dark)
+        found = _cavities(surface, sky, inside)
+        if found:  # a closer look moves rims, and takes no more for inside, such as a gap's ground
             closer = exposure(surface, look_closer(surface, looks, _along_rims(surface, found)))
-            return _cavities(surface, closer, dark) or found
+            return _cavities(surface, closer, inside) or found
     return ()
 
 
@@ -73,8 +74,8 @@ def _along_rims(surface: Surface, cavities: Sequence[Cavity]) -> Floats:
     return np.asarray(surface.vertices[surface.half_edges[edges]].reshape(-1, 3))
 
 
-def _cavities(surface: Surface, sky: Sky, dark: float) -> tuple[Cavity, ...]:
-    inside, outside = sky.known & (sky.share < dark), sky.known & (sky.share > BRIGHT)
+def _cavities(surface: Surface, sky: Sky, inside: Flags) -> tuple[Cavity, ...]:
+    outside = sky.known & (sky.share > BRIGHT) & ~inside
     if not (inside.any() and outside.any()):
         return ()
     inner = _inner_side(surface, sky.share, inside, outside)
