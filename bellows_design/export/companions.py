@@ -10,6 +10,9 @@ from bellows_design.leak_test.record import LeakTest
 LEAK_TEST = "leak_test.json"
 LEAK_TEST_FORMAT = "bellows-design leak test 1"
 
+_SETTINGS = (".prusaslicer.ini", ".machine.json", ".process.json", ".filament.json")
+"""Endings of the files of settings."""
+
 
 def leak_test_file(test: LeakTest) -> dict[str, bytes]:
     """Setting, slicer, its settings and the result of every rule, or why there are none.
@@ -32,6 +35,11 @@ def settings_files(part: Part) -> dict[str, bytes]:
     for name, text in orca_settings(part.profile).items():
         texts[f"{part.name}.orcaslicer{name.removeprefix(part.profile.name)}"] = text
     return {name: text.encode() for name, text in texts.items()}
+
+
+def is_settings(name: str) -> bool:
+    """Whether a file of this name holds settings for a slicer."""
+    return name.endswith(_SETTINGS)
 
 
 def three_mf_with_settings(part: Part) -> bytes:
