@@ -44,10 +44,15 @@ def is_settings(name: str) -> bool:
 
 def three_mf_with_settings(part: Part) -> bytes:
     """The part as 3MF with the settings of its printer for PrusaSlicer."""
+    return three_mf(part, settings_comment(part))
+
+
+def settings_comment(part: Part) -> str:
+    """The settings as PrusaSlicer keeps them in a 3MF; empty without a printer."""
     from printers.slicing.prusa import parsed_settings
 
     pairs = parsed_settings(prusa_text(part)).items()
-    return three_mf(part, "".join(f"; {key} = {value}\n" for key, value in pairs))
+    return "".join(f"; {key} = {value}\n" for key, value in pairs)
 
 
 def prusa_text(part: Part) -> str:
