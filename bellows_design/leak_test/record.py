@@ -19,6 +19,9 @@ from printers.report import RuleResult
 RULE = "leak_test"
 """Name of the rule where the test itself is missing."""
 
+REQUIRED_RULES = ("leak_path", "printed_depth")
+"""Rules that every leak test applies: one that was not is no pass."""
+
 Result = Literal["pass", "warn", "fail", "not run"]
 
 
@@ -72,11 +75,20 @@ class LeakTest:
 
     @property
     def result(self) -> Result:
-        """The worst verdict among its rules."""
+        """The worst verdict among its rules; a required one that was not applied is a failure."""
         if self.outcome is None:
             return "not run"
-        found = {rule.verdict for rule in self.outcome.rules}
-        return "fail" if "fail" in found else "warn" if "warn" in found else "pass"
+        found = {rule.verdict for rule in self.rules}
+        if "fail" in found or self.missing:
+            return "fail"
+        return "warn" if "warn" in found else "pass"
+
+    @property
+    def missing(self) -> tuple[str, ...]:
+        """Required rules that were not applied though the test was run."""
+        applied = {rule.rule for rule in self.rules}
+        required = () if self.outcome is None else REQUIRED_RULES
+        return tuple(name for name in required if name not in applied)
 
     @property
     def rules(self) -> tuple[RuleResult, ...]:
