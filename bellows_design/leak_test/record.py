@@ -14,6 +14,7 @@ from typing import Any, Literal
 from bellows_design.design.conditions import LeakTestSetting
 from bellows_design.design.design import Design
 from bellows_design.geometry.tessellation import ClosedMesh
+from bellows_design.validation.quoting import reproducible
 from printers.report import RuleResult
 
 RULE = "leak_test"
@@ -66,12 +67,18 @@ class LeakTest:
         outcome: What was found; None if it was not run.
         why: Why it was not run, as the end of a sentence; empty if it was.
         failed: True if it was begun and could not be finished.
+
+    ``why`` may be a slicer's words: without folders and control characters, so that two runs write
+    the same.
     """
 
     setting: LeakTestSetting
     outcome: LeakOutcome | None = None
     why: str = ""
     failed: bool = False
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "why", reproducible(self.why))
 
     @property
     def result(self) -> Result:
@@ -98,7 +105,8 @@ class LeakTest:
     @property
     def slicer(self) -> str | None:
         """Name and version of the program; None if the test was not run."""
-        return None if self.outcome is None else f"{self.outcome.slicer} {self.outcome.version}"
+        found = self.outcome
+        return None if found is None else reproducible(f"{found.slicer} {found.version}", 100)
 
     def summary(self) -> dict[str, Any]:
         """Setting, result, slicer and, if it was not run, why: plain values for JSON."""

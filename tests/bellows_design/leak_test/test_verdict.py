@@ -178,6 +178,31 @@ def test_a_slicer_that_fails_is_a_warning_or_a_reason(
     assert required.withdrawn is not None
 
 
+@pytest.mark.parametrize("setting", ["if-available", "required"])
+def test_what_a_slicer_says_is_the_same_in_every_run(
+    setting: str, tmp_path: Path, stub_stages: Callable[..., None]
+) -> None:
+    """Its folder has another name each time, and its text may hold anything."""
+
+    def written(folder: str) -> tuple[dict[str, bytes], tuple[str, ...]]:
+        def test(design: Design, mesh: ClosedMesh) -> LeakOutcome:
+            raise PrintersError(f"failed:\n\x1b[31m{folder}/part.stl\x1b[0m is bad\a in {folder}.")
+
+        found = outcome(setting, test, tmp_path / "out", stub_stages)
+        said = (*found.verdict.warnings, *(each.message for each in found.verdict.reasons))
+        place = tmp_path / "out" / "finger"
+        files = {
+            each.name: each.read_bytes() for each in place.glob("*") if each.name != "run.json"
+        }
+        return files, said
+
+    one, two = written("/tmp/bellows-slicing-1a2b"), written("/var/xy/bellows-slicing-3c4d")
+    assert one == two and bool(one[0]) == (setting == "if-available")
+    assert any("part.stl is bad? in …" in text for text in one[1])
+    assert all(text.isprintable() for text in one[1])
+    assert not [name for name, content in one[0].items() if b"slicing-" in content]
+
+
 def test_every_failure_of_the_check_is_named_beside_a_missing_slicer(
     tmp_path: Path, stub_stages: Callable[..., None]
 ) -> None:
