@@ -88,6 +88,7 @@ def run(
     Raises:
         BellowsError: No solid, no watertight mesh, a first mesh beyond the budget, an unknown
             printer, or a place for the files that is taken by others.
+        PrintersError: The leak test is required, and the slicer here cannot be used.
         MeshingError: No usable mesh, or none in time.
         OSError: The files could not be written; then nothing has changed.
     """
@@ -118,12 +119,12 @@ def examine(
     from bellows_design.leak_test.record import LeakTest, Unavailable
     from bellows_design.leak_test.slicer import usual_tester
 
-    tester = usual_tester() if leak_tester is None else leak_tester
+    setting = design.limits.leak_test
+    tester = usual_tester(setting) if leak_tester is None else leak_tester
     progress.stage("geometry")
     part = build_part(design)
     progress.stage("check")
     report = check(design, part)
-    setting = design.limits.leak_test
     if setting == "required" and isinstance(tester, Unavailable):
         verdict = refused_for_want_of_a_slicer(design, report, tester)
         return Outcome(design, report, None, verdict, LeakTest(setting, why=tester.why), part)
@@ -157,12 +158,12 @@ def _leak_test(
     progress: Progress,
 ) -> LeakTest:
     """The leak test, or why it was left out."""
-    from bellows_design.leak_test.record import LeakTest, Unavailable
+    from bellows_design.leak_test.record import SWITCHED_OFF, LeakTest, Unavailable
     from printers.errors import PrintersError
 
     setting = design.limits.leak_test
     if setting == "off":
-        return LeakTest(setting, why="the design switches it off")
+        return LeakTest(setting, why=SWITCHED_OFF)
     if not verdict.approved:
         return LeakTest(setting, why="the design is refused without it")
     if isinstance(tester, Unavailable):

@@ -12,7 +12,6 @@ from printers import (
     Opening,
     PrintabilityReport,
     PrintedModel,
-    PrinterProfile,
 )
 
 
@@ -52,13 +51,6 @@ def port_opening(design: Design) -> Opening:
         direction=(-1.0, 0.0, 0.0),
         radius=port.tube_diameter / 2,
     )
-
-
-def turned_to_fit(mesh: ClosedMesh, profile: PrinterProfile) -> bool:
-    """Whether the part lies across the bed: longer than it is wide, but not than it is deep."""
-    extents = mesh.vertices.max(axis=0) - mesh.vertices.min(axis=0)
-    (length, width, _), bed = extents, profile.build_volume
-    return bool(length > bed[0] and length <= bed[1] and width <= bed[0])
 
 
 def check_dict(design: Design, report: PrintabilityReport) -> dict[str, Any]:

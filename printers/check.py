@@ -7,14 +7,13 @@ two lists here.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import replace
 
 from printers.errors import PrintersError
 from printers.measure.part import MeasuredPart
 from printers.model import PrintedModel
 from printers.profile import PrinterProfile
+from printers.profile.judging import judged
 from printers.report import PrintabilityReport, RuleResult
-from printers.rule_table import RULES
 from printers.rules.airtightness import check_airtightness
 from printers.rules.envelope import check_bed_contact, check_build_volume, check_cross_section
 from printers.rules.gaps import check_declared_gaps, check_measured_gaps
@@ -81,25 +80,8 @@ def check_printability(model: PrintedModel, profile: PrinterProfile) -> Printabi
     part = MeasuredPart(model, profile)
     if not part.surface.areas.sum() > 0:
         raise PrintersError("the mesh has no triangle with an area")
-    results = (_completed(result, profile) for result in _results(part))
+    results = (judged(result, profile) for result in _results(part))
     return PrintabilityReport(profile.name, tuple(results))
-
-
-def _completed(result: RuleResult, profile: PrinterProfile) -> RuleResult:
-    """The result with what the table says of its rule, and the severity that the profile sets.
-
-    A rule may warn of less than what its severity is for; a profile that sets one means both.
-    """
-    severity = profile.severity(result.rule)
-    decided = result.verdict == "fail" or (
-        result.verdict == "warn" and result.rule in profile.rules
-    )
-    return replace(
-        result,
-        verdict=severity if decided else result.verdict,
-        severity=severity,
-        source=RULES[result.rule].source,
-    )
 
 
 def _results(part: MeasuredPart) -> Iterator[RuleResult]:

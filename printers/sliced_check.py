@@ -17,7 +17,7 @@ from printers.orientation.turning import Turning, turned
 from printers.profile import PrinterProfile
 from printers.slicing.finding import Slicer
 from printers.slicing.making import Sliced, slice_mesh
-from printers.slicing.placing import Placement
+from printers.slicing.placing import Placement, turned_to_fit
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,7 +44,7 @@ class SlicedCheck:
             "print_seconds": sliced.gcode.estimated_time,
             "filament_mm": sliced.gcode.filament_length,
             "notes": list(self.notes),
-            "leak_test": self.leaks.to_dict(),
+            "leak_test": self.leaks.figures(),
         }
 
 
@@ -69,22 +69,13 @@ def check_sliced(
             something out; one sentence.
     """
     standing = turned(model, turning)
-    sliced = slice_mesh(
-        standing.vertices, standing.triangles, profile, slicer, _rotation(standing, profile), folder
-    )
+    rotation = 90.0 if turned_to_fit(standing.vertices, profile) else 0.0
+    sliced = slice_mesh(standing.vertices, standing.triangles, profile, slicer, rotation, folder)
     openings = [_on_bed(opening, sliced.placement) for opening in standing.openings]
     volume = merged_surface(standing.vertices, standing.triangles).volume()
     back = _to_file(sliced.placement, turning)
     leaks = leak_test(sliced.gcode.beads, openings, profile, solid_volume=volume, transform=back)
     return SlicedCheck(sliced, leaks)
-
-
-def _rotation(standing: PrintedModel, profile: PrinterProfile) -> float:
-    """A quarter turn where the part's length fits only along the other side of the bed."""
-    length, width = np.ptp(standing.vertices[:, :2], axis=0)
-    room_x, room_y, _ = profile.build_volume
-    fits, fits_turned = length <= room_x and width <= room_y, width <= room_x and length <= room_y
-    return 90.0 if fits_turned and not fits else 0.0
 
 
 def _on_bed(opening: Opening, placement: Placement) -> Opening:

@@ -1,7 +1,7 @@
 """Where a part stands on the bed: as it is printed, in the middle.
 
 Slicers measure the bed from its front left corner, and 3MF wants everything in the positive octant.
-A part that is longer than the bed is wide, but not than it is deep, is turned by a right angle.
+A part that fits only so is turned by a right angle.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bellows_design.export.part import Part
-from bellows_design.printability import turned_to_fit
+from printers.slicing.placing import turned_to_fit
 
 
 @dataclass(frozen=True)
@@ -51,7 +51,7 @@ def placement(part: Part) -> Placement:
     if part.profile is None:
         return STANDING_AS_MADE
     low, high = part.mesh.vertices.min(axis=0), part.mesh.vertices.max(axis=0)
-    bed, turned = part.profile.build_volume, turned_to_fit(part.mesh, part.profile)
+    bed, turned = part.profile.build_volume, turned_to_fit(part.mesh.vertices, part.profile)
     extent = Placement(turned, (0.0, 0.0, 0.0))(np.array([low, high]))
     middle = extent.mean(axis=0)
     move = (bed[0] / 2 - middle[0], bed[1] / 2 - middle[1], -low[2])

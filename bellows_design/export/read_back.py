@@ -24,6 +24,7 @@ from bellows_design.errors import BellowsError
 from bellows_design.export.part import Part
 from bellows_design.export.placement import Placement, placement
 from bellows_design.validation.quoting import quoted_reason
+from printers.reading.stl import FACET
 
 if TYPE_CHECKING:
     import cadquery as cq
@@ -45,7 +46,6 @@ _IDENTITY = "1 0 0 0 1 0 0 0 1 0 0 0"
 """Of an item without a transform."""
 
 _CORE = "{http://schemas.microsoft.com/3dmanufacturing/core/2015/02}"
-_TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 
 
 class NotThePart(BellowsError):
@@ -79,9 +79,9 @@ def _require(holds: bool, difference: str) -> None:
 def _read_stl(part: Part, content: bytes) -> None:
     count = int.from_bytes(content[80:84], "little")
     wanted = len(part.mesh.triangles)
-    whole = len(content) == 84 + count * _TRIANGLE.itemsize
+    whole = len(content) == 84 + count * FACET.itemsize
     _require(whole and count == wanted, f"it holds {count} triangles instead of {wanted}")
-    corners = np.frombuffer(content, _TRIANGLE, offset=84)["corners"]
+    corners = np.frombuffer(content, FACET, offset=84)["corners"]
     same = np.array_equal(corners, part.mesh.vertices[part.mesh.triangles])
     _require(same, "its triangles are not the checked ones")
 

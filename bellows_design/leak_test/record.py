@@ -23,6 +23,9 @@ RULE = "leak_test"
 REQUIRED_RULES = ("leak_path", "printed_depth")
 """Rules that every leak test applies: one that was not is no pass."""
 
+SWITCHED_OFF = "the design switches it off"
+"""Why there is no test, as the end of a sentence."""
+
 Result = Literal["pass", "warn", "fail", "not run"]
 
 

@@ -6,23 +6,35 @@ import time
 from functools import partial
 from typing import TYPE_CHECKING
 
+from bellows_design.design.conditions import LeakTestSetting
 from bellows_design.design.design import Design
 from bellows_design.geometry.tessellation import ClosedMesh
-from bellows_design.leak_test.record import LeakOutcome, LeakTester, Unavailable
+from bellows_design.leak_test.record import SWITCHED_OFF, LeakOutcome, LeakTester, Unavailable
 from bellows_design.printability import printed_model
 
 if TYPE_CHECKING:
     from printers.slicing.finding import Slicer
 
 
-def usual_tester() -> LeakTester | Unavailable:
+def usual_tester(setting: LeakTestSetting) -> LeakTester | Unavailable:
     """The leak test with the slicer of this machine, or why there is none.
 
-    Raises ``PrintersError`` if the environment names a slicer that is none.
+    Nothing is looked for where the ``setting`` switches the test off.
+
+    Raises ``PrintersError`` if the test is required and the slicer that is found cannot be used: it
+    is too old, another program, or none.
     """
+    from printers.errors import PrintersError
     from printers.slicing.finding import VARIABLE, find_slicer
 
-    slicer = find_slicer()
+    if setting == "off":
+        return Unavailable(SWITCHED_OFF)
+    try:
+        slicer = find_slicer()
+    except PrintersError as error:
+        if setting == "required":
+            raise
+        return Unavailable(str(error).rstrip("."))
     if slicer is None:
         return Unavailable(f"there is no PrusaSlicer here (see {VARIABLE})")
     return partial(tested, slicer)
@@ -43,6 +55,6 @@ def tested(slicer: Slicer, design: Design, mesh: ClosedMesh) -> LeakOutcome:
         version=found.sliced.version,
         profile_sha256=found.sliced.profile_digest,
         rules=found.leaks.rules,
-        figures=found.leaks.to_dict() | {"notes": list(found.notes)},
+        figures=found.leaks.figures() | {"notes": list(found.notes)},
         seconds=time.perf_counter() - started,
     )

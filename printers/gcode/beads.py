@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from printers.arrays import Flags, Floats, Ints
+from printers.errors import PrintersError
 
 EXTERNAL_PERIMETER = 0
 PERIMETER = 1
@@ -90,6 +91,39 @@ class Beads:
     def volume(self) -> Floats:
         """(n,) mm³ of plastic."""
         return self.length * self.width * self.height
+
+    @property
+    def part_box(self) -> tuple[Floats, Floats]:
+        """(3,) least and (3,) greatest coordinates of the plastic of the part, mm.
+
+        Raises:
+            PrintersError: No bead is of the part.
+        """
+        part = self.chosen(self.of_part)
+        if not len(part):
+            raise PrintersError("the G-code lays down nothing of the part")
+        half = part.width[:, None] / 2
+        lower = np.minimum(part.start, part.end) - half
+        upper = np.maximum(part.start, part.end) + half
+        return (
+            np.array([*lower.min(axis=0), (part.top - part.height).min()]),
+            np.array([*upper.max(axis=0), part.top.max()]),
+        )
+
+    @property
+    def layer_heights(self) -> Floats:
+        """(k,) mm to the micrometre: the highest bead in each layer of the part but the lowest.
+
+        The lowest is as high as the bed needs it, and counts where there is no other. Bridges
+        count for no layer: slicers may lay them as thick as the nozzle.
+        """
+        layered = self.of_part & (self.kind != BRIDGE)
+        above = layered & (self.layer > self.layer[self.of_part].min(initial=0))
+        chosen = self.chosen(above if above.any() else layered)
+        layers, place = np.unique(chosen.layer, return_inverse=True)
+        highest = np.zeros(len(layers))
+        np.maximum.at(highest, place, chosen.height)
+        return np.round(highest, 3)
 
     @property
     def of_part(self) -> Flags:

@@ -11,7 +11,10 @@ from printers.errors import PrintersError, quoted
 from printers.gcode.beads import OTHER, SKIRT, SUPPORT, Beads
 from printers.gcode.comments import Comments
 from printers.gcode.heights import heights, layers
-from printers.gcode.machine import LINE, PATH, TOOL, X0, X1, Y0, Y1, Z0, Z1
+from printers.gcode.machine import FLOW, LINE, PATH, TOOL, X0, X1, Y0, Y1, Z0, Z1
+
+MOST_FLOWS = 5
+"""That are told."""
 
 
 def before_first_layer(moves: Floats, comments: Comments) -> Flags:
@@ -65,5 +68,9 @@ def notes_on(moves: Floats, beads: Beads, comments: Comments) -> Iterator[str]:
     sloped = np.count_nonzero(np.abs(later[:, Z1] - later[:, Z0]) > 1e-4)
     if sloped:
         yield f"{sloped} beads rise on their way and are put at the height of their layer"
+    for flow in np.unique(later[:, FLOW])[:MOST_FLOWS]:
+        if flow != 1:
+            count = np.count_nonzero(later[:, FLOW] == flow)
+            yield f"{count} beads get {flow:.3g} times the plastic that they ask for (M221)"
     if len(np.unique(later[:, TOOL])) > 1:
         yield "several extruders print; all are taken to have the filament of the first"

@@ -23,17 +23,24 @@ LARGEST_FEED = 1e8
 OFF_CIRCLE = 0.1
 """mm by which the end of an arc may miss its circle: coordinates and centres are rounded."""
 
-X0, Y0, Z0, X1, Y1, Z1, FED, CENTRE_X, CENTRE_Y, TURN, PATH, LINE, VOLUMETRIC, TOOL = range(14)
-"""Columns of a move that lays down plastic. FED is filament in mm, or plastic in mm³ where
-VOLUMETRIC is 1; TURN is 1 for an arc anticlockwise, -1 clockwise, 0 for a straight line."""
+X0, Y0, Z0, X1, Y1, Z1, FED, CENTRE_X, CENTRE_Y, TURN, PATH, LINE, VOLUMETRIC, TOOL, FLOW = range(
+    15
+)
+"""Columns of a move that lays down plastic. FED is the filament that is asked for in mm, or plastic
+in mm³ where VOLUMETRIC is 1; FLOW is what share of it leaves the nozzle, after M221. TURN is 1 for
+an arc anticlockwise, -1 clockwise, 0 for a straight line."""
 
-COLUMNS = 14
+COLUMNS = 15
+
+LARGEST_FLOW = 100.0
+"""Times what is asked for: printers take ten at most."""
 
 # What the machine remembers: places in its state. X, Y, Z of the nozzle on the bed come first;
 # what G-code calls a place is that less the offset.
 _OFFSET = 3
 _E, _SCALE, _RELATIVE, _RELATIVE_E, _VOLUMETRIC = range(6, 11)  # E in its unit; mm a unit
 _BROKEN, _RETRACTED, _PATHS, _PLANE, _TOOL, _LENGTH, _VOLUME = range(11, 18)
+_FLOW, _FIXED_CENTRE = 18, 19
 
 # As in words.py. They stand here too, since the cache of compiled functions looks at one file.
 _X, _Y, _Z, _E_WORD, _I, _J, _R, _S, _D, _P = 0, 1, 2, 3, 5, 6, 7, 8, 9, 10
@@ -43,9 +50,11 @@ _RETRACT, _RECOVER, _PLANE_XY, _PLANE_ZX, _PLANE_YZ = (_G + 10 * n for n in (10,
 _INCHES, _MILLIMETRES, _ABSOLUTE, _INCREMENTAL, _RENAME = (
     _G + 10 * n for n in (20, 21, 90, 91, 92)
 )
-_ABSOLUTE_E, _INCREMENTAL_E, _FILAMENT = (_M + 10 * n for n in (82, 83, 200))
+_ABSOLUTE_E, _INCREMENTAL_E, _FILAMENT, _SET_FLOW = (_M + 10 * n for n in (82, 83, 200, 221))
+_ABSOLUTE_CENTRE, _INCREMENTAL_CENTRE = _G + 901, _G + 911
 
 _TOO_FAR, _TOO_MUCH, _OTHER_PLANE, _NO_CENTRE, _NO_CIRCLE, _TURNS, _NO_SPLINE = range(1, 8)
+_NO_FLOW = 8
 _FAULTS: dict[int, str] = {
     _TOO_FAR: f"leads farther than {LARGEST / 1000:g} m",
     _TOO_MUCH: "feeds more than 100 km of filament",
@@ -54,12 +63,13 @@ _FAULTS: dict[int, str] = {
     _NO_CIRCLE: "has an arc whose end does not lie on its circle",
     _TURNS: "has an arc of several turns (P), which is not understood",
     _NO_SPLINE: "has a spline (G5), which is not understood",
+    _NO_FLOW: f"sets the flow (M221) beyond 0 to {100 * LARGEST_FLOW:g} %",
 }
 
 
 def _start() -> Floats:
-    state = np.zeros(18)
-    state[_SCALE], state[_BROKEN] = 1.0, 1.0
+    state = np.zeros(20)
+    state[_SCALE], state[_BROKEN], state[_FLOW] = 1.0, 1.0, 1.0
     return state
 
 
@@ -74,7 +84,7 @@ class Machine:
     state: Floats = field(default_factory=_start)
 
     def follow(self, lines: Lines) -> Floats:
-        """(n, 14) moves that lay down plastic, with the columns above.
+        """(n, 15) moves that lay down plastic, with the columns above.
 
         Raises:
             PrintersError: A command leads beyond a printer's size, or is not understood.
@@ -97,14 +107,19 @@ class Machine:
 
 
 @njit(cache=True)
-def _set_mode(state: Floats, kind: int, word: Floats) -> None:
-    """Commands that change what later ones mean."""
+def _set_mode(state: Floats, kind: int, word: Floats) -> int:
+    """Commands that change what later ones mean: 0 or the kind of a fault."""
     if kind in (_INCHES, _MILLIMETRES):
         state[_SCALE] = 25.4 if kind == _INCHES else 1.0
     elif kind in (_ABSOLUTE, _INCREMENTAL):
         state[_RELATIVE] = 1.0 if kind == _INCREMENTAL else 0.0
     elif kind in (_ABSOLUTE_E, _INCREMENTAL_E):
         state[_RELATIVE_E] = 1.0 if kind == _INCREMENTAL_E else 0.0
+    elif kind in (_ABSOLUTE_CENTRE, _INCREMENTAL_CENTRE):
+        state[_FIXED_CENTRE] = 1.0 if kind == _ABSOLUTE_CENTRE else 0.0
+    elif kind == _SET_FLOW and not np.isnan(word[_S]):
+        state[_FLOW] = word[_S] / 100
+        return 0 if 0 <= state[_FLOW] <= LARGEST_FLOW else _NO_FLOW
     elif kind in (_PLANE_XY, _PLANE_ZX, _PLANE_YZ):
         state[_PLANE] = 0.0 if kind == _PLANE_XY else 1.0
     elif kind == _WORD_TOOL:
@@ -115,6 +130,7 @@ def _set_mode(state: Floats, kind: int, word: Floats) -> None:
                 state[_VOLUMETRIC] = 1.0 if word[column] > 0 else 0.0
     elif kind in (_RETRACT, _RECOVER) and np.isnan(word[_P]):
         state[_BROKEN] = 1.0  # with P, G10 sets a tool's temperature
+    return 0
 
 
 @njit(cache=True)
@@ -184,10 +200,13 @@ def _centre(
         return 0.0, 0.0, _TURNS
     if not np.isnan(word[_R]):
         return _centre_by_radius(x, y, state[_X], state[_Y], word[_R] * scale, turn)
-    if np.isnan(word[_I]) and np.isnan(word[_J]):
+    fixed = state[_FIXED_CENTRE] == 1.0  # I and J are then a place, and both are needed
+    missing = np.isnan(word[_I]) + np.isnan(word[_J])
+    if missing == 2 or (fixed and missing > 0):
         return 0.0, 0.0, _NO_CENTRE
-    centre_x = x + (0.0 if np.isnan(word[_I]) else word[_I] * scale)
-    centre_y = y + (0.0 if np.isnan(word[_J]) else word[_J] * scale)
+    from_x, from_y = (state[_OFFSET], state[_OFFSET + 1]) if fixed else (x, y)
+    centre_x = from_x + (0.0 if np.isnan(word[_I]) else word[_I] * scale)
+    centre_y = from_y + (0.0 if np.isnan(word[_J]) else word[_J] * scale)
     first = np.hypot(x - centre_x, y - centre_y)
     last = np.hypot(state[_X] - centre_x, state[_Y] - centre_y)
     if not first <= LARGEST:
@@ -220,7 +239,7 @@ def _move(state: Floats, kind: int, word: Floats, move: Floats) -> tuple[bool, i
     feed = _fed(state, word)
     if fault or not feed <= LARGEST_FEED or not state[_RETRACTED] <= LARGEST_FEED:
         return False, fault if fault else _TOO_MUCH
-    state[_VOLUME if state[_VOLUMETRIC] == 1.0 else _LENGTH] += feed
+    state[_VOLUME if state[_VOLUMETRIC] == 1.0 else _LENGTH] += feed * state[_FLOW]
     turn, centre_x, centre_y = 0.0, 0.0, 0.0
     if feed > 0 and kind in (_CLOCKWISE, _ANTICLOCKWISE):
         turn = -1.0 if kind == _CLOCKWISE else 1.0
@@ -228,7 +247,7 @@ def _move(state: Floats, kind: int, word: Floats, move: Floats) -> tuple[bool, i
         if fault:
             return False, fault
     moved = turn != 0.0 or np.hypot(state[_X] - x, state[_Y] - y) > SHORTEST
-    if feed == 0 or not moved:
+    if feed * state[_FLOW] == 0 or not moved:
         if moved or state[_Z] != z:
             state[_BROKEN] = 1.0
         return False, 0
@@ -238,6 +257,7 @@ def _move(state: Floats, kind: int, word: Floats, move: Floats) -> tuple[bool, i
     move[X1], move[Y1], move[Z1] = state[_X], state[_Y], state[_Z]
     move[FED], move[CENTRE_X], move[CENTRE_Y], move[TURN] = feed, centre_x, centre_y, turn
     move[PATH], move[VOLUMETRIC], move[TOOL] = state[_PATHS] - 1, state[_VOLUMETRIC], state[_TOOL]
+    move[FLOW] = state[_FLOW]
     return True, 0
 
 
@@ -260,7 +280,7 @@ def _follow(
         elif kind == _SPLINE:
             fault = _NO_SPLINE
         else:
-            _set_mode(state, kind, word)
+            fault = _set_mode(state, kind, word)
         if fault:
             return count, fault, number[row]
     return count, 0, 0

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from types import MappingProxyType
 
@@ -17,7 +17,8 @@ from printers.gcode.beads import Beads
 from printers.gcode.comments import Comments
 from printers.gcode.facts import Facts
 from printers.gcode.laying import before_first_layer, laid_beads, notes_on
-from printers.gcode.machine import COLUMNS, FED, VOLUMETRIC, Machine
+from printers.gcode.machine import COLUMNS, FED, FLOW, VOLUMETRIC, Machine
+from printers.gcode.overlooked import Overlooked
 from printers.gcode.pieces import pieces
 from printers.gcode.words import read_lines
 
@@ -64,7 +65,8 @@ class GCode:
 def read_gcode(path: str | os.PathLike[str], filament_diameter: float | None = None) -> GCode:
     """The beads of a G-code file, read as a stream.
 
-    Understood are the commands G0 to G3, G10, G11, G20, G21, G28, G90 to G92, M82, M83 and M200,
+    Understood are the commands G0 to G3, G10, G11, G20, G21, G28, G90 to G92, G90.1, G91.1, M82,
+    M83, M200 and M221 (for all extruders), a note names others that change places or plastic,
     and comments of PrusaSlicer, SuperSlicer, OrcaSlicer, Bambu Studio and Cura; G-code without
     comments too, whose beads are all of the part, of the kind `OTHER`. Plastic before the first
     layer and at features such as `Custom` is no part of the part: its kind is `SKIRT`.
@@ -78,10 +80,11 @@ def read_gcode(path: str | os.PathLike[str], filament_diameter: float | None = N
             no filament diameter, or lays down no plastic.
     """
     name = quoted(os.fspath(path))
-    machine, comments = Machine(), Comments()
+    machine, comments, overlooked = Machine(), Comments(), Overlooked()
     try:
-        moves = _moves(Path(path), machine, comments)
-        return _understood(moves, machine, comments, filament_diameter)
+        moves = _moves(Path(path), machine, comments, overlooked)
+        code = _understood(moves, machine, comments, filament_diameter)
+        return replace(code, notes=(*code.notes, *overlooked.notes()))
     except PrintersError as error:
         raise PrintersError(f"G-code {name}: {error}") from None
     except (OSError, ValueError) as error:  # ValueError: no name that a file may have
@@ -89,12 +92,13 @@ def read_gcode(path: str | os.PathLike[str], filament_diameter: float | None = N
         raise PrintersError(f"G-code {name} cannot be read: {reason}") from None
 
 
-def _moves(path: Path, machine: Machine, comments: Comments) -> Floats:
-    """(n, 14) all moves that lay down plastic; machine and comments take in the file."""
+def _moves(path: Path, machine: Machine, comments: Comments, overlooked: Overlooked) -> Floats:
+    """(n, 15) all moves that lay down plastic; the others take in the file."""
     parts, line, count = [np.empty((0, COLUMNS))], 1, 0
     for piece in pieces(path):
         lines = read_lines(piece, line)
         comments.collect(piece, lines)
+        overlooked.collect(piece)
         parts.append(straightened(machine.follow(lines), MOST_BEADS))
         line, count = line + lines.passed, count + len(parts[-1])
         if count > MOST_BEADS:
@@ -112,9 +116,9 @@ def _understood(
     area = np.pi * diameter**2 / 4
     # E is a length, or a volume after M200, or where the settings say so.
     section = 1.0 if facts.number("use_volumetric_e") else area
-    volume = np.where(moves[:, VOLUMETRIC] == 1, 1.0, section) * moves[:, FED]
-    beads = laid_beads(moves, volume, comments)
-    printed = volume[~before_first_layer(moves, comments)].sum() / area
+    asked = np.where(moves[:, VOLUMETRIC] == 1, 1.0, section) * moves[:, FED]
+    beads = laid_beads(moves, asked * moves[:, FLOW], comments)
+    printed = asked[~before_first_layer(moves, comments)].sum() / area  # slicers know no M221
     return GCode(
         beads=beads,
         slicer=facts.slicer,

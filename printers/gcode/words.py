@@ -21,11 +21,12 @@ COMMENT, TOOL = 0, 1
 G, M = 100_000, 200_000
 """A command is its letter and ten times its number: G1 is G + 10, G92.1 is G + 921."""
 
-HOME = G + 280
+HOME, FLOW = G + 280, M + 2210
 
 MEANT = np.array(
     [G + 10 * n for n in (0, 1, 2, 3, 5, 10, 11, 17, 18, 19, 20, 21, 28, 90, 91, 92)]
-    + [M + 10 * n for n in (82, 83, 200)]
+    + [G + 901, G + 911]
+    + [M + 10 * n for n in (82, 83, 200, 221)]
 )
 """Commands that move the nozzle or change what moves mean; others are passed over unread."""
 
@@ -141,11 +142,13 @@ def _command_at(data: Bytes, at: int, end: int) -> tuple[int, int]:
 
 
 @njit(cache=True)
-def _words_from(data: Bytes, at: int, end: int, flags: bool, row: Floats, column_of: Ints) -> int:
+def _words_from(data: Bytes, at: int, end: int, kind: int, row: Floats, column_of: Ints) -> int:
     """Fill the row with the words up to a comment or checksum; the kind of a fault, or 0.
 
-    `flags` are letters without a number, as in `G28 X`.
+    Letters may stand without a number in `G28 X`, and in `M221 S` of Bambu, which says nothing of
+    the flow.
     """
+    flags = kind in (HOME, FLOW)
     at = _after_blanks(data, at, end)
     while at < end and data[at] != _SEMICOLON and data[at] != _ASTERISK:
         if data[at] == _BRACKET:
@@ -162,7 +165,7 @@ def _words_from(data: Bytes, at: int, end: int, flags: bool, row: Floats, column
         if column >= 0:
             if not np.isnan(row[column]):
                 return _TWICE
-            row[column] = value
+            row[column] = np.nan if digits == 0 and kind == FLOW else value
         at = _after_blanks(data, at, end)
     return 0
 
@@ -198,7 +201,7 @@ def _lex(
                 words[count, _TOOL_COLUMN] = _number_at(data, at + 1, end)[0]
                 count += 1
             elif (meant == kind).any():
-                fault = _words_from(data, after, end, kind == HOME, words[count], column_of)
+                fault = _words_from(data, after, end, kind, words[count], column_of)
                 if fault:
                     return count, fault, line
                 count += 1

@@ -171,7 +171,12 @@ class LeakTest:
 
     def to_dict(self) -> dict[str, Any]:
         """The result for JSON, without the picture."""
-        kept = {name for name in self.__dataclass_fields__ if name != "view"}
+        said = {"notes": list(self.notes), "rules": [asdict(rule) for rule in self.rules]}
+        return self.figures() | said
+
+    def figures(self) -> dict[str, Any]:
+        """What was measured, for JSON that states rules and notes elsewhere."""
+        kept = self.__dataclass_fields__.keys() - {"view", "notes", "rules"}
         record = {name: _plain(getattr(self, name)) for name in sorted(kept)}
         return record | {"width": self.width, "margin": self.margin}
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from printers.arrays import Floats
 from printers.leak_test.result import (
     SURELY_OPEN,
     SURELY_SEALED,
@@ -20,7 +21,9 @@ from printers.leak_test.result import (
     leak_verdict,
 )
 from printers.profile import PrinterProfile
-from printers.report import RuleResult, Verdict, place
+from printers.profile.judging import judged
+from printers.report import RuleResult, Verdict, pass_or_fail, place
+from printers.rules.printing import judged_layer_height
 
 LINES_MISSING = 0.75
 LAYERS_MISSING = 1.75
@@ -66,15 +69,42 @@ def leak_rules(
     depth: Depth,
     seams: SeamTolerance | None,
     material: Material,
+    layer_heights: Floats,
     profile: PrinterProfile,
 ) -> Iterator[RuleResult]:
-    """One result for every rule."""
+    """One result for every rule, with its severity on this printer.
+
+    `layer_heights` are those of the part's layers, (k,) mm.
+    """
+    results = _measured(ratio, leaks, depth, seams, material, profile)
+    for result in (*results, *_layer_height(layer_heights, profile)):
+        yield judged(result, profile)
+
+
+def _measured(
+    ratio: float,
+    leaks: tuple[Leak, ...],
+    depth: Depth,
+    seams: SeamTolerance | None,
+    material: Material,
+    profile: PrinterProfile,
+) -> Iterator[RuleResult]:
     yield _leak_path(ratio, leaks, profile.line_width)
     yield _printed_depth(depth, profile)
     if seams is not None:
         yield _seam_loss(seams, profile)
     if material.share is not None:
-        yield _printed_material(material, material.share, profile)
+        yield _printed_material(material, material.share)
+
+
+def _layer_height(heights: Floats, profile: PrinterProfile) -> Iterator[RuleResult]:
+    """Of the layers that are really printed; none where all beads are bridges."""
+    if not len(heights):
+        return
+    thick = int((heights > profile.sealing_layer_height + 1e-9).sum())
+    where = f"{thick} of {len(heights)}" if 0 < thick < len(heights) else "all"
+    highest = float(heights.max())
+    yield judged_layer_height(highest, profile, f"{where} layers of the G-code above the first")
 
 
 def _leak_path(ratio: float, leaks: tuple[Leak, ...], line_width: float) -> RuleResult:
@@ -129,30 +159,24 @@ def _printed_depth(depth: Depth, profile: PrinterProfile) -> RuleResult:
 
 def _seam_loss(seams: SeamTolerance, profile: PrinterProfile) -> RuleResult:
     least = LEAST_SEAM_LOSS * profile.line_width
-    good = seams.holds >= least - 1e-9
+    verdict = pass_or_fail(seams.holds >= least - 1e-9)
     opens = (
         f"at {seams.leaks_at:g} mm a leak opens"
         if seams.leaks_at is not None
         else "more was not tried"
     )
     message = f"seams hold up to a loss of {seams.holds:g} mm at both ends of every path; {opens}"
-    verdict = "pass" if good else _severity(profile, "seam_loss")
     measured, required = round(seams.holds, 3), round(least, 3)
     return RuleResult("seam_loss", verdict, measured, required, "mm", "whole part", message)
 
 
-def _printed_material(material: Material, share: float, profile: PrinterProfile) -> RuleResult:
+def _printed_material(material: Material, share: float) -> RuleResult:
     good = abs(share - 1) <= MATERIAL_BAND
+    verdict = pass_or_fail(good)
     message = (
         f"{material.volume / 1000:.2f} cm³ ({material.mass:.1f} g) are laid down, {share:.1%} of "
         f"what the solid needs at a flow of {material.flow:.0%}; "
         f"{'within' if good else 'beyond'} {MATERIAL_BAND:.0%}"
     )
-    verdict = "pass" if good else _severity(profile, "printed_material")
     measured = round(100 * share, 1)
     return RuleResult("printed_material", verdict, measured, 100.0, "%", "whole part", message)
-
-
-def _severity(profile: PrinterProfile, rule: str) -> Verdict:
-    severity = profile.severity(rule)
-    return "pass" if severity == "info" else severity

@@ -90,7 +90,9 @@ def leak_test(
         material=material,
         voxel=side,
         notes=tuple(notes),
-        rules=tuple(leak_rules(ratio, leaks, depth, hold, material, profile)),
+        rules=tuple(
+            leak_rules(ratio, leaks, depth, hold, material, printed.layer_heights, profile)
+        ),
         view=_view(field, printed, paths[0], way, to_part),
     )
 

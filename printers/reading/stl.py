@@ -15,7 +15,8 @@ from printers.errors import PrintersError, quoted
 from printers.reading.part import NOT_STATED, ReadPart, require_few
 
 HEADER = 84  # bytes: 80 of anything, and the number of facets
-_FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+"""A facet of a binary file."""
 
 _NUMBER = rb"\s+(\S{1,60})"
 _VERTEX = rb"\s+vertex" + 3 * _NUMBER
@@ -43,7 +44,7 @@ def read_stl(content: bytes) -> ReadPart:
 
 
 def _is_text(content: bytes) -> bool:
-    exact = len(content) >= HEADER and len(content) == HEADER + _declared(content) * _FACET.itemsize
+    exact = len(content) >= HEADER and len(content) == HEADER + _declared(content) * FACET.itemsize
     start = content[:4096].removeprefix(b"\xef\xbb\xbf").lstrip().lower()
     text = start.startswith(b"solid") and (b"facet" in start or b"endsolid" in start)
     return not exact and text and b"\0" not in start
@@ -57,7 +58,7 @@ def _binary_corners(content: bytes) -> tuple[Floats, tuple[str, ...]]:
     if len(content) < HEADER:
         raise PrintersError(f"it has {len(content)} bytes, and an STL at least {HEADER}")
     count = _declared(content)
-    needed = HEADER + count * _FACET.itemsize
+    needed = HEADER + count * FACET.itemsize
     if len(content) < needed:
         raise PrintersError(
             f"it declares {count} triangles, which take {needed} bytes, but it has {len(content)}: "
@@ -65,7 +66,7 @@ def _binary_corners(content: bytes) -> tuple[Floats, tuple[str, ...]]:
         )
     require_few(count)
     notes = _after_last(content[needed:], count)
-    corners = np.frombuffer(content, _FACET, count, HEADER)["corners"]
+    corners = np.frombuffer(content, FACET, count, HEADER)["corners"]
     with np.errstate(invalid="ignore"):  # signalling NaN
         return corners.astype(np.float64), notes
 
@@ -74,8 +75,8 @@ def _after_last(rest: bytes, count: int) -> tuple[str, ...]:
     """Notes on bytes behind the last declared facet, which must not be facets themselves."""
     if not rest:
         return ()
-    if len(rest) >= _FACET.itemsize and any(rest):
-        more = len(rest) // _FACET.itemsize
+    if len(rest) >= FACET.itemsize and any(rest):
+        more = len(rest) // FACET.itemsize
         raise PrintersError(f"it declares {count} triangles, but holds {more} more behind them")
     return (f"{len(rest)} bytes behind its last triangle mean nothing",)
 

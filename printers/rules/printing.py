@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 
 from printers.measure.part import MeasuredPart
+from printers.profile import PrinterProfile
 from printers.report import RuleResult, Verdict
 
 LEAKED = 0.15
@@ -14,8 +15,19 @@ minute; those with 0.10 mm kept 7.5 bar. Between the two nobody measured."""
 
 
 def check_layer_height(part: MeasuredPart) -> Iterator[RuleResult]:
-    """The layers must be as thin as those that were measured to seal on this printer."""
-    height, sealing = part.profile.layer_height, part.profile.sealing_layer_height
+    """The layers that the profile asks for."""
+    yield judged_layer_height(part.profile.layer_height, part.profile, "all layers")
+
+
+def judged_layer_height(height: float, profile: PrinterProfile, where: str) -> RuleResult:
+    """The layers must be as thin as those that were measured to seal on this printer.
+
+    Args:
+        height: Of the thickest layers, mm.
+        profile: The printer.
+        where: Which layers they are.
+    """
+    sealing = profile.sealing_layer_height
     if height <= sealing + 1e-9:
         verdict: Verdict = "pass"
         message = f"layers of {height:g} mm are no thicker than those that seal, {sealing:g} mm"
@@ -26,9 +38,7 @@ def check_layer_height(part: MeasuredPart) -> Iterator[RuleResult]:
         verdict = "fail"
         message = f"layers of {height:g} mm leak: those of {LEAKED:g} mm did, {sealing:g} mm seal"
     margin = round(sealing - height, 4)
-    yield RuleResult(
-        "layer_height", verdict, height, sealing, "mm", "all layers", message, margin=margin
-    )
+    return RuleResult("layer_height", verdict, height, sealing, "mm", where, message, margin=margin)
 
 
 def check_plastic(part: MeasuredPart) -> Iterator[RuleResult]:

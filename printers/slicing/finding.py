@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import re
 import shutil
-import tempfile
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,6 +12,7 @@ from pathlib import Path
 from printers.errors import PrintersError, quoted
 from printers.slicing.prusa import OLDEST_PRUSASLICER
 from printers.slicing.running import run
+from printers.slicing.working_folder import working_folder
 
 VARIABLE = "BELLOWS_SLICER"
 """Environment variable with the path of a slicer; empty for none."""
@@ -80,8 +80,8 @@ def required_slicer(environment: Mapping[str, str] | None = None) -> Slicer:
 
 def _asked(path: Path) -> Slicer:
     """The slicer, with the name and version that it states."""
-    with tempfile.TemporaryDirectory(prefix="bellows-slicer-") as folder:
-        answer = run([str(path), "--help"], Path(folder), SECONDS_TO_ANSWER).output
+    with working_folder() as folder:
+        answer = run([str(path), "--help"], folder, SECONDS_TO_ANSWER).output
     found = _FIRST_LINE.search(answer)
     if found is None or found[1] != "PrusaSlicer":
         raise PrintersError(

@@ -3,11 +3,8 @@
 from __future__ import annotations
 
 import re
-import shutil
-import tempfile
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -24,6 +21,7 @@ from printers.slicing.prusa import parsed_settings, prusa_settings, settings_dig
 from printers.slicing.running import run
 from printers.slicing.steadiness import UNSTEADY, Steadiness, steadiness
 from printers.slicing.stl import binary_stl
+from printers.slicing.working_folder import working_folder
 
 DEFAULT_SECONDS = 600.0
 """Time limit of one part, s. The shipped finger takes 15 s of a processor."""
@@ -99,29 +97,43 @@ def slice_mesh(
     corners = _corners(np.asarray(vertices, dtype=float), np.asarray(triangles))
     slicer = slicer or required_slicer()
     placement = placed(corners, rotation, profile)
-    on_bed = placement.to_gcode(corners)
-    settings = prusa_settings(profile)
-    with _working_folder(folder) as place:
+    on_bed, settings = placement.to_gcode(corners), prusa_settings(profile)
+    with working_folder(folder) as place:
         (place / "part.stl").write_bytes(binary_stl(on_bed))
         (place / "settings.ini").write_bytes(settings.encode())
-        steady = steadiness(place)
-        started = time.perf_counter()
-        warnings = run_slicer(slicer, place, profile, seconds, steady)
-        took = time.perf_counter() - started
-        gcode = read_gcode(place / "part.gcode")
-    refuse_other_settings(settings, gcode)
-    notes = misplaced(gcode.beads, on_bed, profile.line_width)
+        made = _made(slicer, place, profile, seconds)
+    refuse_other_settings(settings, made.gcode)
+    notes = misplaced(made.gcode.beads, on_bed, profile.line_width)
     return Sliced(
-        gcode=gcode,
+        gcode=made.gcode,
         slicer=slicer.name,
         version=slicer.version,
         profile_digest=settings_digest(settings),
-        seconds=took,
+        seconds=made.seconds,
         placement=placement,
-        reproducible=bool(steady.prefix),
-        warnings=warnings,
-        notes=(*notes, *(() if steady.prefix else (NOT_STEADY,))),
+        reproducible=made.steady,
+        warnings=made.warnings,
+        notes=(*notes, *(() if made.steady else (NOT_STEADY,))),
     )
+
+
+@dataclass(frozen=True, eq=False)
+class _Made:
+    """What one run of the slicer gave, as in `Sliced`, and whether it was a steady one."""
+
+    gcode: GCode
+    warnings: tuple[str, ...]
+    seconds: float
+    steady: bool
+
+
+def _made(slicer: Slicer, place: Path, profile: PrinterProfile, limit: float) -> _Made:
+    """Slice what lies in the folder, and read it back."""
+    steady = steadiness(place)
+    started = time.perf_counter()
+    warnings = run_slicer(slicer, place, profile, limit, steady)
+    took = time.perf_counter() - started
+    return _Made(read_gcode(place / "part.gcode"), warnings, took, bool(steady.prefix))
 
 
 def run_slicer(
@@ -181,19 +193,6 @@ def _corners(vertices: Floats, triangles: Ints) -> Floats:
     if not np.isfinite(corners).all():
         raise PrintersError("the mesh has vertices that are no numbers")
     return corners
-
-
-@contextmanager
-def _working_folder(kept: Path | None) -> Iterator[Path]:
-    """A temporary folder, whose name is always as long; its files are copied to where they stay."""
-    with tempfile.TemporaryDirectory(prefix="bellows-slicing-") as place:
-        try:
-            yield Path(place)
-        finally:
-            if kept is not None:
-                kept.mkdir(parents=True, exist_ok=True)
-                for file in filter(Path.is_file, Path(place).iterdir()):
-                    shutil.copy(file, kept)
 
 
 def _warnings(output: str) -> Iterator[str]:

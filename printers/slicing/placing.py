@@ -59,6 +59,17 @@ def placed(vertices: Floats, rotation: float, profile: PrinterProfile) -> Placem
     return Placement(rotation, np.array(shift))
 
 
+def turned_to_fit(vertices: Floats, profile: PrinterProfile) -> bool:
+    """Whether the part fits the bed by a quarter turn alone.
+
+    `vertices` are (n, 3) mm, as it stands.
+    """
+    length, width = np.ptp(vertices[:, :2], axis=0)
+    room_x, room_y, _ = profile.build_volume
+    fits, fits_turned = length <= room_x and width <= room_y, width <= room_x and length <= room_y
+    return bool(fits_turned and not fits)
+
+
 def misplaced(beads: Beads, on_bed: Floats, line_width: float) -> list[str]:
     """Sides of the part's box where no bead of it ends within a line, as sentences.
 
@@ -67,27 +78,21 @@ def misplaced(beads: Beads, on_bed: Floats, line_width: float) -> list[str]:
     Raises:
         PrintersError: Opposite sides are off by the same: the slicer moved the part.
     """
-    of_part = beads.chosen(beads.of_part)
-    if not len(of_part):
-        raise PrintersError("the G-code lays down nothing of the part")
-    half = of_part.width[:, None] / 2
-    ends = np.concatenate((of_part.start - half, of_part.end - half)).min(axis=0)
-    starts = np.concatenate((of_part.start + half, of_part.end + half)).max(axis=0)
-    lower = ends - on_bed[:, :2].min(axis=0)
-    upper = starts - on_bed[:, :2].max(axis=0)
-    for axis in range(2):
+    least, greatest = beads.part_box
+    lower, upper = least - on_bed.min(axis=0), greatest - on_bed.max(axis=0)
+    for axis in range(3):
         shift = (lower[axis] + upper[axis]) / 2
         if min(abs(lower[axis]), abs(upper[axis])) > line_width and lower[axis] * upper[axis] > 0:
             raise PrintersError(
-                f"the slicer moved the part by {shift:.2f} mm in {'xy'[axis]}: what its G-code "
+                f"the slicer moved the part by {shift:.2f} mm in {'xyz'[axis]}: what its G-code "
                 f"lays down cannot be compared with the part"
             )
     return list(_open_sides(lower, upper, line_width))
 
 
 def _open_sides(lower: Floats, upper: Floats, line_width: float) -> list[str]:
-    off = [(f"-{'xy'[axis]}", lower[axis]) for axis in range(2)]
-    off += [(f"+{'xy'[axis]}", -upper[axis]) for axis in range(2)]
+    off = [(f"-{'xyz'[axis]}", lower[axis]) for axis in range(3)]
+    off += [(f"+{'xyz'[axis]}", -upper[axis]) for axis in range(3)]
     return [
         f"nothing is laid down on the last {gap:.2f} mm towards {side}: something is thinner there "
         f"than the slicer prints"

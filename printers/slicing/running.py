@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import os
-import signal
 import subprocess
 from collections.abc import Mapping, Sequence
-from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
 from printers.errors import PrintersError, quoted
+from printers.slicing.guardian import RUNNING, end
 
 OUTPUT_KEPT = 100_000
 """Bytes of what the program says, the last ones."""
@@ -35,7 +33,7 @@ def run(
     The environment is this program's unless another is given.
 
     The program has a session of its own, so that it is ended with all that it started: after the
-    time limit, and when this program is interrupted.
+    time limit, when this program is interrupted and, in a `working_folder`, when it is killed.
 
     Raises:
         PrintersError: It cannot be started, or did not end in time.
@@ -44,6 +42,7 @@ def run(
     with said.open("wb") as output:
         process = _started(command, folder, output.fileno(), environment)
         try:
+            (folder / RUNNING).write_text(str(process.pid))
             status = process.wait(timeout=seconds)
         except subprocess.TimeoutExpired:
             raise PrintersError(
@@ -51,6 +50,7 @@ def run(
             ) from None
         finally:
             _end(process)
+            (folder / RUNNING).unlink(missing_ok=True)
     return Ended(status, _tail(said))
 
 
@@ -74,11 +74,7 @@ def _started(
 
 def _end(process: subprocess.Popen[bytes]) -> None:
     """End the program and what it started; what has ended already is left alone."""
-    with suppress(ProcessLookupError, PermissionError):
-        if hasattr(os, "killpg"):
-            os.killpg(process.pid, signal.SIGKILL)
-        else:
-            process.kill()
+    end(process.pid)
     process.wait()
 
 

@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from printers.arrays import Floats
-
-_TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+from printers.reading.stl import FACET
 
 
 def binary_stl(corners: Floats) -> bytes:
@@ -15,6 +14,6 @@ def binary_stl(corners: Floats) -> bytes:
     `corners` are those of the triangles, (3 m, 3) mm, one triangle after the other. The header is
     empty, and normals follow from the corners: the same mesh gives the same bytes.
     """
-    records = np.zeros(len(corners) // 3, dtype=_TRIANGLE)
+    records = np.zeros(len(corners) // 3, dtype=FACET)
     records["corners"] = corners.reshape(-1, 3, 3)
     return bytes(80) + np.uint32(len(records)).astype("<u4").tobytes() + records.tobytes()

@@ -55,7 +55,7 @@ def check_gcode(options: CheckOptions) -> Answer:
         "openings": [opening_dict(opening) for opening in openings],
         "notes": list(notes),
         **report.to_dict(),
-        "leak_test": found.to_dict(),
+        "leak_test": found.figures(),
     }
     status = DONE if report.verdict == "pass" else REFUSED
     return Answer(content, report_table(Path(options.name).name, report, notes), status)
@@ -77,13 +77,7 @@ def opening_on(beads: Beads, named: Named, name: str) -> Opening:
 
     from printers.model import Opening
 
-    of_part = beads.chosen(beads.of_part)
-    half = of_part.width[:, None] / 2
-    ends = np.concatenate([of_part.start - half, of_part.end - half])
-    starts = np.concatenate([of_part.start + half, of_part.end + half])
-    bottom = float((of_part.top - of_part.height).min())
-    lower = np.array([*ends.min(axis=0), bottom])
-    upper = np.array([*starts.max(axis=0), float(of_part.top.max())])
+    lower, upper = beads.part_box
     point = np.array(named[:3])
     distances = np.abs(np.concatenate([point - lower, upper - point]))
     side = int(distances.argmin())

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import tempfile
-from contextlib import ExitStack
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -21,7 +19,7 @@ if TYPE_CHECKING:
 Extended = tuple["PrintabilityReport", tuple[str, ...], "dict[str, Any] | None"]
 """Report with the rules of the leak test, notes, and what JSON says of the slicing."""
 
-NO_SLICER = "there is no slicer, so no leak test was run: the verdict stands on the geometric rules"
+NOT_TESTED = "so no leak test was run: the verdict stands on the geometric rules"
 RULE = "leak_test"
 
 
@@ -36,11 +34,15 @@ def with_leak_test(
     from printers.errors import PrintersError
     from printers.slicing.finding import find_slicer
 
-    slicer = find_slicer()
+    why, slicer = "there is no slicer", None
+    try:
+        slicer = find_slicer()
+    except PrintersError as error:
+        why = str(error).rstrip(".")
     if slicer is None:
         if not options.require_slicer:
-            return report, (NO_SLICER,), None
-        return _with_failure(report, "there is no slicer, but the leak test is required"), (), None
+            return report, (f"{why}, {NOT_TESTED}",), None
+        return _with_failure(report, f"{why}, but the leak test is required"), (), None
     if not subject.model.openings:
         return report, ("without an opening there is no leak test",), None
     try:
@@ -58,15 +60,14 @@ def _tested(
     slicer: Slicer,
 ) -> Extended:
     from printers.sliced_check import check_sliced
+    from printers.slicing.working_folder import working_folder
 
     progress.stage(f"slice with {slicer.name} {slicer.version}, and leak test")
-    with ExitStack() as stack:
-        folder = None
-        if options.keep_gcode is not None:
-            folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="bellows-")))
+    with working_folder() as folder:
         found = check_sliced(subject.model, subject.profile, turning, slicer, folder)
-        if folder is not None and options.keep_gcode is not None:
-            _keep(folder / "part.gcode", options.keep_gcode)
+        made = (folder / "part.gcode").read_bytes() if options.keep_gcode else b""
+    if options.keep_gcode is not None:
+        _keep(made, options.keep_gcode)
     said = (
         f"sliced with {found.sliced.slicer} {found.sliced.version}, profile "
         f"{found.sliced.profile_digest[:16]}",
@@ -91,11 +92,11 @@ def drawn(leaks: LeakTest, path: Path | None) -> tuple[str, ...]:
     return (f"{path}: the layer with {'the leak' if leaks.leaks else 'the thinnest seal'}",)
 
 
-def _keep(made: Path, path: Path) -> None:
+def _keep(made: bytes, path: Path) -> None:
     from bellows_design.files.atomic import replacing
 
     with replacing(path) as temporary:
-        temporary.write_bytes(made.read_bytes())
+        temporary.write_bytes(made)
 
 
 def _with_failure(report: PrintabilityReport, message: str) -> PrintabilityReport:

@@ -134,10 +134,10 @@ def verdict_of(design: Design, report: PrintabilityReport, state: LoadedState) -
     approved.
     """
     from bellows_design.approval import decide, with_leak_test
-    from bellows_design.leak_test.record import LeakTest
+    from bellows_design.leak_test.record import SWITCHED_OFF, LeakTest
 
     setting = design.limits.leak_test
-    why = "the design switches it off" if setting == "off" else NOT_SLICED
+    why = SWITCHED_OFF if setting == "off" else NOT_SLICED
     return with_leak_test(decide(design, report, state), LeakTest(setting, why=why))
 
 

@@ -18,21 +18,55 @@ TWO_BUBBLES = ["length=18", "number_of_bubbles=2"]
 
 def test_an_empty_name_of_the_slicer_stands_for_none(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("BELLOWS_SLICER", "")
-    tester = usual_tester()
-    assert isinstance(tester, Unavailable) and "BELLOWS_SLICER" in tester.why
+    for setting in ("if-available", "required"):
+        tester = usual_tester(setting)
+        assert isinstance(tester, Unavailable) and "BELLOWS_SLICER" in tester.why
 
 
-def test_a_wrong_name_of_the_slicer_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("BELLOWS_SLICER", "no_such_program")
-    with pytest.raises(PrintersError, match="no_such_program"):
-        usual_tester()
+def old_slicer(folder: Path) -> str:
+    path = folder / "prusa-slicer"
+    path.write_text("#!/bin/sh\necho 'PrusaSlicer-2.4.0 based on Slic3r'\n")
+    path.chmod(0o755)
+    return str(path)
+
+
+@pytest.mark.parametrize(("name", "words"), [("", "2.4.0"), ("no_such_program", "no_such_program")])
+def test_a_slicer_that_cannot_be_used_stops_only_what_requires_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str, words: str
+) -> None:
+    monkeypatch.setenv("BELLOWS_SLICER", name or old_slicer(tmp_path))
+    found = usual_tester("if-available")
+    assert isinstance(found, Unavailable) and words in found.why
+    with pytest.raises(PrintersError, match=words):
+        usual_tester("required")
+
+
+def test_a_slicer_on_the_path_that_is_too_old_is_as_one_that_is_named(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    old_slicer(tmp_path)
+    monkeypatch.delenv("BELLOWS_SLICER", raising=False)
+    monkeypatch.setenv("PATH", f"{tmp_path}:/usr/bin:/bin")
+    found = usual_tester("if-available")
+    assert isinstance(found, Unavailable) and "it must be 2.5 or newer" in found.why
+
+
+def test_where_the_test_is_off_no_slicer_is_asked(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / "slicer"
+    path.write_text(f"#!/bin/sh\ntouch {tmp_path}/asked\n")
+    path.chmod(0o755)
+    monkeypatch.setenv("BELLOWS_SLICER", str(path))
+    assert isinstance(usual_tester("off"), Unavailable)
+    assert not (tmp_path / "asked").exists()
 
 
 @pytest.mark.slicer
 @pytest.mark.slow
 def test_a_short_finger_is_sliced_and_sealed() -> None:
     design = with_overrides(load_design("finger"), TWO_BUBBLES)
-    tester = usual_tester()
+    tester = usual_tester("required")
     assert not isinstance(tester, Unavailable)
     found = tester(design, build_part(design).mesh)
     assert found.slicer == "PrusaSlicer" and len(found.profile_sha256) == 64

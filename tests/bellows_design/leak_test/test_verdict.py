@@ -142,6 +142,21 @@ def test_off_is_off_though_there_is_a_slicer(
     assert leak_test_file(found)["why"] == "the design switches it off"
 
 
+@pytest.mark.parametrize("setting", ["off", "if-available", "required"])
+def test_a_misnamed_slicer_stops_only_a_run_that_requires_it(
+    setting: str, tmp_path: Path, stub_stages: Callable[..., None], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("BELLOWS_SLICER", "/nope")
+    stub_stages(FakeEvaluation(design=load_design("finger")))
+    if setting == "required":
+        with pytest.raises(PrintersError, match="names '/nope', which is no program"):
+            run(design(setting), tmp_path)
+        return
+    found = run(design(setting), tmp_path)
+    assert found.verdict.approved and found.leak_test.result == "not run"
+    assert ("nope" in found.leak_test.why) == (setting == "if-available")
+
+
 def test_required_without_a_slicer_is_refused_before_the_evaluation(
     tmp_path: Path, stub_stages: Callable[..., None]
 ) -> None:

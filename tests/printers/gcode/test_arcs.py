@@ -41,6 +41,29 @@ def test_an_arc_keeps_its_circle_its_angle_and_its_plastic(
     assert len(set(beads.path.tolist())) == 1
 
 
+@pytest.mark.parametrize(
+    ("setting", "arc"),
+    [
+        ("G90.1", "G3 I5 J0 E1"),
+        ("G90.1\nG91", "G3 I5 J0 E1"),
+        ("G92 X110\nG90.1", "G3 I105 J0 E1"),
+        ("G90.1\nG20", "G3 I.1968503937007874 J0 E.03937007874015748"),
+        ("G90.1\nG91.1", "G3 I-5 J0 E1"),
+        ("", "G3 I-5 J0 E1"),
+    ],
+)
+def test_centres_are_places_after_g90_1(read: Callable[..., GCode], setting: str, arc: str) -> None:
+    """A full circle about (5, 0), from (10, 0)."""
+    beads = read(f"{TO_START}{setting}\n{arc}\n").beads
+    np.testing.assert_allclose(np.hypot(beads.start[:, 0] - 5, beads.start[:, 1]), 5, atol=1e-9)
+    assert beads.volume.sum() == pytest.approx(AREA, rel=1e-9)
+
+
+def test_a_place_of_a_centre_needs_both_numbers(read: Callable[..., GCode]) -> None:
+    with pytest.raises(PrintersError, match="line 5 of the G-code has an arc without a centre"):
+        read(f"{TO_START}G90.1\nG3 I5 E1\n")
+
+
 def test_chords_leave_the_arc_by_no_more_than_the_error_and_not_by_much_less(
     read: Callable[..., GCode],
 ) -> None:

@@ -64,6 +64,48 @@ def test_every_way_to_write_the_same_moves_gives_the_same_beads(
     same(read(text), read(L_SHAPE))
 
 
+@pytest.mark.parametrize("percent", [0, 60, 95, 130])
+def test_flow_scales_the_plastic_from_its_line_on(read: Callable[..., GCode], percent: int) -> None:
+    """Marlin, M221: what leaves the nozzle is the E that is asked for, times S per cent."""
+    text = f"M82\nG1 Z.2\nG1 X10 E1\nM221 S{percent}\nG1 X20 E2\nM221 S100\nG1 X30 E3\n"
+    code = read(text)
+    laid = [1, percent / 100, 1] if percent else [1, 1]
+    assert code.beads.volume == pytest.approx(AREA * np.array(laid))
+    assert code.filament_length == pytest.approx(2 + percent / 100)
+    assert any("(M221)" in note for note in code.notes) == (percent > 0)
+
+
+def test_a_flow_of_60_percent_halves_neither_places_nor_what_the_slicer_states(
+    read: Callable[..., GCode],
+) -> None:
+    """The slicer's own account of its filament knows nothing of M221."""
+    text = "M83\nM221 S60\nG1 Z.2\nG1 X10 E1\n; filament used [mm] = 1.0\n"
+    code = read(text)
+    np.testing.assert_allclose(code.beads.width, 0.6 * AREA / 10 / 0.2)
+    assert code.beads.length == pytest.approx([10])
+    assert not [note for note in code.notes if "misread" in note]
+
+
+@pytest.mark.parametrize("line", ["M221 S", "M221 X0 Y0 Z0", "M221 Z0", "M221"])
+def test_the_end_stops_of_bambu_are_no_flow(read: Callable[..., GCode], line: str) -> None:
+    code = read(f"M83\n{line}\nG1 Z.2\nG1 X10 E1\n")
+    assert code.beads.volume == pytest.approx([AREA])
+
+
+@pytest.mark.parametrize(
+    "command",
+    ["SET_EXTRUDE_FACTOR FACTOR=0.6", "M92 E400", "SET_GCODE_OFFSET Z=.2", "N4 m579 X2", "G59.1"],
+)
+def test_other_commands_that_change_plastic_or_places_are_told(
+    read: Callable[..., GCode], command: str
+) -> None:
+    text = "M83\nG1 Z.2\nG1 X10 E1\n"
+    name = command.removeprefix("N4 ").split()[0].upper()
+    assert any(note.startswith(f"{name}: passed over") for note in read(text + command).notes)
+    unlike = f"; {command}\nM922\nM92_MINE\nG54\n"
+    assert not [note for note in read(text + unlike).notes if "passed over" in note]
+
+
 def test_extrusion_is_relative_after_incremental_moves_too(read: Callable[..., GCode]) -> None:
     text = "M82\nG90\nG1 Z.2\nG1 X10 E1\nG91\nG1 X10 E1\nG90\nG1 X30 E3\n"
     assert read(text).beads.volume == pytest.approx(np.full(3, AREA))
@@ -148,6 +190,8 @@ def test_lexer_and_machine_agree_on_letters_and_commands() -> None:
         ("M83\nG5 X1 Y1 I0 J1 P0 Q1 E1\n", "line 2 of the G-code has a spline"),
         ("M83\nG1 X5 E1\n", "at or below the bed"),
         ("M83\nG1 Z-1\nG1 X5 E1\n", "at or below the bed"),
+        ("M83\nM221 S-5\n", "line 2 of the G-code sets the flow"),
+        ("M83\nM221 S99999\n", "line 2 of the G-code sets the flow"),
         ("G92 X" + "9" * 300 + "\n", "leads farther"),
         ("M83\nG1 Z.2\nG91\n" + "G1 X9000\n" * 3, "leads farther"),
     ],

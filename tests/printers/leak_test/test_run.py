@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from bead_boxes import CAVITY, WIDTH, Box, joined_beads, rotation, with_gap
 
-from printers import Opening, PrinterProfile, PrintersError, load_profile
-from printers.gcode.beads import SKIRT
+from printers import Opening, PrinterProfile, PrintersError, RuleResult, load_profile
+from printers.gcode.beads import BRIDGE, SKIRT, SUPPORT
 from printers.leak_test import LeakTest, field, leak_test
 from printers.rule_table import RULES
 
@@ -18,7 +18,8 @@ from printers.rule_table import RULES
 @pytest.fixture(scope="module")
 def profile() -> PrinterProfile:
     plain = load_profile("prusa_i3")
-    return plain.model_copy(update={"layer_height": 0.2, "minimum_solid_layers": 4})
+    thick = {"layer_height": 0.2, "sealing_layer_height": 0.2, "minimum_solid_layers": 4}
+    return plain.model_copy(update=thick)
 
 
 def result_of(box: Box, profile: PrinterProfile, **options: object) -> LeakTest:
@@ -38,7 +39,8 @@ def test_a_sound_box_is_sealed(profile: PrinterProfile) -> None:
     assert test.depth.lines == pytest.approx(box.wall_thickness / 0.4, abs=0.15)
     assert test.material.share == pytest.approx(1.0)
     assert set(verdicts(test).values()) == {"pass"}
-    assert set(verdicts(test)) == {"leak_path", "printed_depth", "seam_loss", "printed_material"}
+    names = {"leak_path", "printed_depth", "seam_loss", "printed_material", "layer_height"}
+    assert set(verdicts(test)) == names
 
 
 def test_its_rules_stand_in_the_table(profile: PrinterProfile) -> None:
@@ -46,12 +48,67 @@ def test_its_rules_stand_in_the_table(profile: PrinterProfile) -> None:
     assert names <= set(RULES)
 
 
+def layer_height(test: LeakTest) -> RuleResult:
+    (result,) = [rule for rule in test.rules if rule.rule == "layer_height"]
+    return result
+
+
+@pytest.mark.parametrize(
+    ("sealing", "verdict"), [(0.2, "pass"), (0.25, "pass"), (0.1, "fail"), (0.199, "fail")]
+)
+def test_layers_are_judged_as_they_are_printed(
+    profile: PrinterProfile, sealing: float, verdict: str
+) -> None:
+    """The box has layers of 0.2 mm, whatever the profile asks for."""
+    asked = profile.model_copy(update={"layer_height": 0.1, "sealing_layer_height": sealing})
+    result = layer_height(result_of(Box(), asked))
+    assert (result.measured, result.required, result.verdict) == (0.2, sealing, verdict)
+    assert result.where == "all layers of the G-code above the first"
+
+
+def test_one_thick_layer_in_the_middle_is_found(profile: PrinterProfile) -> None:
+    beads = Box().beads
+    layers = len(np.unique(beads.layer)) - 1
+    thick = replace(beads, height=np.where(beads.layer == 5, 0.3, beads.height))
+    result = layer_height(leak_test(thick, [Box().opening], profile, seams=False))
+    assert (result.measured, result.verdict) == (0.3, "fail")
+    assert result.where == f"1 of {layers} layers of the G-code above the first"
+
+
+@pytest.mark.parametrize("kind", [SKIRT, SUPPORT, BRIDGE])
+def test_thick_bridges_skirts_supports_and_first_layers_are_no_layers(kind: int) -> None:
+    beads = Box().beads
+    first = replace(beads, height=np.where(beads.layer == 0, 0.3, beads.height))
+    other = replace(first, kind=np.full(len(beads), kind), height=np.full(len(beads), 0.4))
+    assert set(joined_beads([first, other]).layer_heights) == {0.2}
+    assert joined_beads([first.chosen(first.layer == 0), other]).layer_heights.tolist() == [0.3]
+
+
+def test_every_result_states_severity_and_source_of_its_rule(profile: PrinterProfile) -> None:
+    test = result_of(Box(), profile, seams=True, solid_volume=1.0)
+    for result in test.rules:
+        rule = RULES[result.rule]
+        assert (result.severity, result.source) == (rule.severity, rule.source)
+
+
+@pytest.mark.parametrize("severity", ["fail", "warn", "info"])
+def test_a_profile_says_what_too_little_plastic_means(
+    profile: PrinterProfile, severity: str
+) -> None:
+    stricter = profile.model_copy(update={"rules": {"printed_material": severity}})
+    test = result_of(Box(), stricter, solid_volume=1.0)
+    (result,) = [rule for rule in test.rules if rule.rule == "printed_material"]
+    assert (result.verdict, result.severity) == (severity, severity)
+
+
 def test_a_leak_fails_with_its_width_and_place(profile: PrinterProfile) -> None:
     test = result_of(Box(wall=with_gap(0.2, lambda z, number: 2.3 < z < 2.5)), profile)
     assert test.verdict == "leaks"
     assert test.width == pytest.approx(0.2 / WIDTH * 0.4, abs=0.02)
     assert test.depth.lines == 0 and test.seams is None
-    assert verdicts(test) == {"leak_path": "fail", "printed_depth": "fail"}
+    assert verdicts(test) == {
+        "leak_path": "fail", "printed_depth": "fail", "layer_height": "pass"
+    }  # fmt: skip
     (leak,) = test.leaks
     assert leak.place[2] == pytest.approx(2.3) and CAVITY - 0.3 < leak.place[0] < 2.8
 
@@ -117,6 +174,8 @@ def test_the_result_is_plain_json(profile: PrinterProfile) -> None:
     record = result_of(Box(), profile, seams=True).to_dict()
     assert json.loads(json.dumps(record))["verdict"] == "sealed"
     assert "view" not in record and record["margin"] > 0
+    figures = result_of(Box(), profile, seams=True).figures()
+    assert record.items() >= figures.items() and record.keys() - figures == {"rules", "notes"}
 
 
 def test_the_same_beads_give_the_same_result(profile: PrinterProfile) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 from collections.abc import Callable
 from pathlib import Path
@@ -13,7 +14,7 @@ from pretended_slicer import SETTINGS_BLOCK, loop
 
 from printers import load_profile
 from printers.errors import PrintersError
-from printers.slicing.finding import Slicer
+from printers.slicing.finding import Slicer, find_slicer
 from printers.slicing.making import run_slicer, slice_mesh
 from printers.slicing.prusa import prusa_settings, settings_digest
 from printers.slicing.stl import binary_stl
@@ -30,8 +31,8 @@ def test_what_the_slicer_makes_is_read_back(pretended: Pretended, box: Box) -> N
     assert (sliced.slicer, sliced.version) == ("PrusaSlicer", "2.5.0")
     assert sliced.profile_digest == settings_digest(prusa_settings(PROFILE))
     beads = sliced.gcode.beads
-    assert len(beads) == 4 and sliced.warnings == ()
-    points = np.column_stack((beads.start, np.zeros(4)))
+    assert len(beads) == 80 and sliced.warnings == ()
+    points = np.column_stack((beads.start, np.zeros(80)))
     found = sliced.placement.to_part(points)
     np.testing.assert_allclose(found.min(axis=0), [40.2, 50.2, 60])
     assert sliced.notes == () if sliced.reproducible else len(sliced.notes) == 1
@@ -86,6 +87,12 @@ def test_what_slicers_do_in_silence_is_noticed(
         slice_mesh(*box, PROFILE, pretended(body), seconds=seconds)
 
 
+def test_half_of_the_part_is_told(pretended: Pretended, box: Box) -> None:
+    half = f"{loop(125, 105, 11.6, 7.6, layers=10)}; {SETTINGS_BLOCK}"
+    notes = slice_mesh(*box, PROFILE, pretended(half), seconds=20).notes
+    assert any("on the last 2.00 mm towards +z" in note for note in notes)
+
+
 def test_an_old_file_is_not_taken_for_the_slicers(
     pretended: Pretended, box: Box, tmp_path: Path
 ) -> None:
@@ -131,6 +138,31 @@ def test_nothing_is_left_behind(
     with pytest.raises(PrintersError):
         slice_mesh(*box, PROFILE, pretended("exit 1"), seconds=20)
     assert os.listdir(tmp_path / "temporary") == []
+
+
+def full(*_: object, **__: object) -> None:
+    raise OSError(errno.ENOSPC, "No space left on device")
+
+
+@pytest.mark.parametrize("name", ["pathlib.Path.write_bytes", "pathlib.Path.open", "os.mkdir"])
+def test_a_full_temporary_folder_is_one_sentence(
+    pretended: Pretended, box: Box, monkeypatch: pytest.MonkeyPatch, name: str
+) -> None:
+    """As for any other fault of the slicer, the caller decides what follows from it."""
+    slicer = pretended(GOOD)
+    monkeypatch.setattr(name, full)
+    with pytest.raises(PrintersError, match=r"slicer cannot be written: No space left on device$"):
+        slice_mesh(*box, PROFILE, slicer, seconds=20)
+
+
+@pytest.mark.parametrize("name", ["pathlib.Path.open", "os.mkdir"])
+def test_a_slicer_that_cannot_be_asked_for_want_of_space_is_one_sentence(
+    pretended: Pretended, monkeypatch: pytest.MonkeyPatch, name: str
+) -> None:
+    path = str(pretended(GOOD).path)
+    monkeypatch.setattr(name, full)
+    with pytest.raises(PrintersError, match=r"slicer cannot be written: No space left on device$"):
+        find_slicer({"BELLOWS_SLICER": path})
 
 
 def test_without_a_slicer_the_sentence_says_how_to_get_one(box: Box) -> None:

@@ -9,7 +9,7 @@ from printers import load_profile
 from printers.arrays import Floats
 from printers.errors import PrintersError
 from printers.gcode.beads import EXTERNAL_PERIMETER, SKIRT, Beads
-from printers.slicing.placing import misplaced, placed
+from printers.slicing.placing import misplaced, placed, turned_to_fit
 
 PROFILE = load_profile("prusa_i3")
 POINTS = np.random.default_rng(1).uniform(-30, 60, (50, 3))
@@ -59,13 +59,20 @@ def test_a_long_part_fits_when_it_is_turned() -> None:
     placed(long, 90, PROFILE)
 
 
-def loop(lower: list[float], upper: list[float], kind: int = EXTERNAL_PERIMETER) -> Beads:
-    """Beads of 0.4 mm whose outer sides are the rectangle."""
+def loop(
+    lower: list[float],
+    upper: list[float],
+    kind: int = EXTERNAL_PERIMETER,
+    bottom: float = 0.0,
+    top: float = 10.0,
+) -> Beads:
+    """Beads 0.4 mm wide whose outer sides are the rectangle, in one layer."""
     (x0, y0), (x1, y1) = np.array(lower) + 0.2, np.array(upper) - 0.2
     corners = np.array([[x0, y0], [x1, y0], [x1, y1], [x0, y1], [x0, y0]])
     full = np.full(4, 0.4)
     count = np.zeros(4, dtype=np.int64)
-    return Beads(corners[:-1], corners[1:], full, full, full, full, count + kind, count, count)
+    tops, height = np.full(4, top), np.full(4, top - bottom)
+    return Beads(corners[:-1], corners[1:], tops, height, full, full, count + kind, count, count)
 
 
 ON_BED: Floats = np.array([[100.0, 100, 0], [130, 120, 10]])
@@ -87,6 +94,38 @@ def test_a_side_that_the_slicer_left_out_is_told() -> None:
     (note,) = misplaced(loop([100, 100], [127, 120]), ON_BED, 0.4)
     assert "nothing is laid down on the last 3.00 mm towards +x" in note
     assert len(misplaced(loop([103, 100], [127, 120]), ON_BED, 0.4)) == 2
+
+
+@pytest.mark.parametrize(
+    ("bottom", "top", "told"),
+    [(0.0, 5.0, "5.00 mm towards +z"), (2.0, 10.0, "2.00 mm towards -z"), (0.3, 9.7, None)],
+)
+def test_layers_that_are_missing_are_told(bottom: float, top: float, told: str | None) -> None:
+    notes = misplaced(loop([100, 100], [130, 120], bottom=bottom, top=top), ON_BED, 0.4)
+    assert len(notes) == (told is not None) and (told is None or told in notes[0])
+
+
+def test_a_part_that_floats_is_refused() -> None:
+    with pytest.raises(PrintersError, match=r"moved the part by 1\.50 mm in z"):
+        misplaced(loop([100, 100], [130, 120], bottom=1.5, top=11.5), ON_BED, 0.4)
+
+
+@pytest.mark.parametrize(
+    ("length", "width", "turned"),
+    [(100, 240, True), (240, 100, False), (250, 210, False), (210, 250, True), (100, 100, False),
+     (251, 100, False), (100, 251, False), (250, 211, False), (230, 215, False)],
+)  # fmt: skip
+def test_a_part_is_turned_where_it_fits_only_so(length: int, width: int, turned: bool) -> None:
+    """The bed is 250 by 210 mm; what fits neither way is left as it is."""
+    corners = np.array([[0.0, 0, 0], [length, width, 5]])
+    assert turned_to_fit(corners, PROFILE) is turned
+    if turned:
+        placed(corners, 90, PROFILE)
+
+
+def test_the_box_of_the_part_is_that_of_its_plastic() -> None:
+    lower, upper = loop([100, 100], [130, 120], bottom=1, top=3).part_box
+    np.testing.assert_allclose([lower, upper], [[100, 100, 1], [130, 120, 3]])
 
 
 def test_skirts_say_nothing_of_the_part() -> None:

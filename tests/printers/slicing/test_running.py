@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+import subprocess
+import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -50,6 +52,36 @@ def test_children_that_a_program_leaves_behind_are_ended_too(
     while is_running(child) and time.monotonic() < deadline:
         time.sleep(0.01)
     assert not is_running(child)
+
+
+KILLED = """
+import sys
+from pathlib import Path
+from printers.slicing.running import run
+from printers.slicing.working_folder import working_folder
+with working_folder() as folder:
+    run(["sh", "-c", "sleep 60 & echo $$ $! > part.gcode; wait"], folder, 60)
+"""
+
+
+def test_after_a_kill_the_slicer_its_children_and_its_folder_are_gone(tmp_path: Path) -> None:
+    """SIGKILL leaves a program no time to clear up."""
+    surroundings = {**os.environ, "TMPDIR": str(tmp_path)}
+    killed = subprocess.Popen([sys.executable, "-c", KILLED], env=surroundings)
+    deadline = time.monotonic() + 60
+    while not (said := [path.read_text() for path in tmp_path.glob("*/part.gcode")]) or not said[0]:
+        assert killed.poll() is None and time.monotonic() < deadline
+        time.sleep(0.01)
+    processes = [int(number) for number in said[0].split()]
+    assert len(processes) == 2 and all(is_running(each) for each in processes)
+    killed.kill()
+    killed.wait()
+    while (any(map(is_running, processes)) or any(tmp_path.iterdir())) and (
+        time.monotonic() < deadline
+    ):
+        time.sleep(0.01)
+    assert not any(is_running(each) for each in processes)
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_of_endless_words_the_last_are_kept(program: Callable[..., Path], tmp_path: Path) -> None:

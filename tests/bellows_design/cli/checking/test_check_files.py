@@ -199,15 +199,17 @@ def test_another_filament_is_taken_with_its_settings(bellows: Bellows, box: str)
     assert answer(bellows, box, "--filament", "fiberflex_40d")[0] == 0
 
 
+@pytest.mark.parametrize(("named", "words"), [("", "no slicer"), ("/nope", "names '/nope'")])
 def test_without_a_slicer_the_geometric_rules_stand_and_that_is_said(
-    bellows: Bellows, box: str, monkeypatch: pytest.MonkeyPatch
+    bellows: Bellows, box: str, monkeypatch: pytest.MonkeyPatch, named: str, words: str
 ) -> None:
-    monkeypatch.setenv("BELLOWS_SLICER", "")
+    monkeypatch.setenv("BELLOWS_SLICER", named)
     status, found = answer(bellows, box, "--slice")
     assert status == 0 and found["slicing"] is None
-    assert any("no slicer" in note for note in found["notes"])
+    assert any(words in note for note in found["notes"])
     status, found = answer(bellows, box, "--slice", "--require-slicer")
     assert status == 1 and found["rules"][-1]["rule"] == "leak_test"
+    assert words in found["rules"][-1]["message"]
 
 
 @pytest.mark.slow

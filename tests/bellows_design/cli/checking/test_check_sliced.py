@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from bead_boxes import Box
 from part_files import binary_stl
 from small_solids import arrays, bore, hollow_box
 
@@ -56,6 +57,31 @@ def test_gcode_that_is_none_gets_one_sentence(bellows: Bellows, tmp_path: Path) 
     path.write_bytes(b"\x89PNG\r\n" * 100)
     status, out, err = bellows("check", str(path), "--opening", "1,2,3,4")
     assert status == 2 and out == "" and str(path) in err.splitlines()[-1]
+
+
+def written(beads: Beads, path: Path) -> str:
+    """The beads as G-code, with filament of 1.75 mm."""
+    lines = ["; filament_diameter = 1.75", "M83"]
+    fed = beads.volume / (np.pi * 1.75**2 / 4)
+    each = zip(beads.top, beads.start.tolist(), beads.end.tolist(), fed, strict=True)
+    for top, (x0, y0), (x1, y1), length in each:
+        lines += [f"G0 X{x0:.5f} Y{y0:.5f} Z{top:.4f}", f"G1 X{x1:.5f} Y{y1:.5f} E{length:.7f}"]
+    path.write_text("\n".join(lines))
+    return str(path)
+
+
+def test_gcode_with_layers_that_leak_is_refused(bellows: Bellows, tmp_path: Path) -> None:
+    """It seals in the model of the beads, but its layers are 0.2 mm high."""
+    path = written(Box().beads, tmp_path / "box.gcode")
+    x, y, z = Box().opening.centre
+    opening = f"{x},{y},{z},{2 * Box().opening.radius}"
+    status, found, err = answer(bellows, path, "--opening", opening)
+    rules = {each["rule"]: each for each in found["rules"]}
+    assert rules["leak_path"]["verdict"] == "pass", err
+    assert (rules["layer_height"]["verdict"], rules["layer_height"]["measured"]) == ("fail", 0.2)
+    assert status == 1 and found["verdict"] == "fail"
+    assert not {"rules", "notes"} & set(found["leak_test"]), "they stand beside it"
+    assert all(each["severity"] and each["source"] for each in found["rules"])
 
 
 def answer(bellows: Bellows, *arguments: str) -> tuple[int, dict[str, Any], str]:
