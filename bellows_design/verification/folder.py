@@ -20,6 +20,7 @@ from bellows_design.export.manifest import (
     LARGEST,
     MANIFEST,
     RUN,
+    NoObject,
     fingerprint,
     is_plain,
     parsed,
@@ -32,6 +33,9 @@ from bellows_design.verification.record import FileCheck, State
 
 LARGEST_FILE = 512 * 2**20
 """Bytes, as for parts of other programs."""
+
+KEYS = {"format", "digest", "verdict", "design", "files", "sha256"}
+"""Of a manifest of ours."""
 
 PIECE = 2**20
 """Bytes that are read at once."""
@@ -51,9 +55,24 @@ def sealed_manifest(folder: Path) -> tuple[dict[str, Any], bytes] | FileCheck:
     if path.is_symlink() or not path.is_file():
         raise DesignError(f"{quoted_path(folder)} is no export: it holds no {MANIFEST}.")
     content = read_file(path, "manifest", LARGEST)
+    if _is_foreign(content, path):
+        raise DesignError(f"{quoted_path(path)} is no manifest of bellows-design.")
     if not seal_holds(content):
         return FileCheck(MANIFEST, "changed", _unsealed(content, path))
     return parsed_manifest(content, path), content
+
+
+def _is_foreign(content: bytes, path: Path) -> bool:
+    """Whether this is JSON of another program, not a manifest of ours that was changed.
+
+    Whoever changes ours leaves most of its keys.
+    """
+    try:
+        return len(KEYS & parsed(content, path).keys()) < 2
+    except NoObject:
+        return True
+    except DesignError:
+        return False
 
 
 def _unsealed(content: bytes, path: Path) -> str:

@@ -255,6 +255,17 @@ def test_a_manifest_that_is_none_is_named(content: bytes, export: Path) -> None:
 
 
 @pytest.mark.parametrize(
+    "content", ["[]", "1", '"x"', "{}", '{"name": "app", "icons": []}', '{"files": ["a.js"]}']
+)
+def test_a_manifest_of_another_program_is_bad_input(
+    content: str, tmp_path: Path, bellows: Bellows
+) -> None:
+    (tmp_path / MANIFEST).write_text(content)
+    status, out, err = bellows("verify", str(tmp_path))
+    assert (status, out) == (2, "") and "no manifest of bellows-design" in err
+
+
+@pytest.mark.parametrize(
     "content",
     [{"files": {}}, {"format": "bellows-design manifest 2"}, {"format": [], "files": 1}],
 )
