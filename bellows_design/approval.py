@@ -122,8 +122,8 @@ def refused_for_want_of_a_slicer(
 
 def without_evaluation(report: PrintabilityReport) -> Verdict:
     """What the printability alone says: no approval, as nothing else is judged."""
-    left_out = NotJudged("evaluation", "it was left out")
-    return Verdict(_print_reasons(report), not_judged=(left_out,))
+    left_out = (NotJudged("evaluation", "it was left out"), NotJudged(RULE, "it was left out"))
+    return Verdict(_print_reasons(report), not_judged=left_out)
 
 
 def with_leak_test(verdict: Verdict, test: LeakTest) -> Verdict:
@@ -134,6 +134,7 @@ def with_leak_test(verdict: Verdict, test: LeakTest) -> Verdict:
     if test.outcome is None:
         return _without_leak_test(verdict, test)
     failed = tuple(_failed(rule) for rule in test.rules if rule.verdict == "fail")
+    failed += tuple(map(_unchecked, test.missing))
     warned = tuple(
         f"The leak test warns: {rule}."
         for rule in dict.fromkeys(rule.rule for rule in test.rules if rule.verdict == "warn")
@@ -194,12 +195,11 @@ def _not_judged(design: Design, state: LoadedState) -> tuple[NotJudged, ...]:
 def _print_reasons(report: PrintabilityReport) -> tuple[Reason, ...]:
     failed = tuple(_failed(rule) for rule in report.failures)
     checked = {rule.rule for rule in report.rules}
-    missing = tuple(
-        Reason("printability", name, "not checked", "pass", "", f"{name} was not checked.")
-        for name in REQUIRED_RULES
-        if name not in checked
-    )
-    return failed + missing
+    return failed + tuple(_unchecked(name) for name in REQUIRED_RULES if name not in checked)
+
+
+def _unchecked(rule: str) -> Reason:
+    return Reason("printability", rule, "not checked", "pass", "", f"{rule} was not checked.")
 
 
 def _failed(rule: RuleResult) -> Reason:

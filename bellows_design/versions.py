@@ -12,6 +12,7 @@ DEPENDENCIES = (
     "cadquery-ocp",
     "feral-solver",
     "gmsh",
+    "lib3mf",
     "manifold3d",
     "meshio",
     "mkl",

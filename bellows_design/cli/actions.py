@@ -175,7 +175,7 @@ def verify(folder: Path, quick: bool, limits: BudgetOptions, cached: bool) -> An
     with solving() as progress:
         store = usual_store(progress) if cached and not quick else None
         found = verify(folder, quick, Means(progress, budget, store))
-    status = REFUSED if found.problems else DONE
+    status = DONE if found.verified else REFUSED
     return Answer(found.to_dict(), verification_table(found), status)
 
 

@@ -10,6 +10,9 @@ from bellows_design.leak_test.record import LeakTest
 LEAK_TEST = "leak_test.json"
 LEAK_TEST_FORMAT = "bellows-design leak test 1"
 
+_SETTINGS = (".prusaslicer.ini", ".machine.json", ".process.json", ".filament.json")
+"""Endings of the files of settings."""
+
 
 def leak_test_file(test: LeakTest) -> dict[str, bytes]:
     """Setting, slicer, its settings and the result of every rule, or why there are none.
@@ -34,12 +37,22 @@ def settings_files(part: Part) -> dict[str, bytes]:
     return {name: text.encode() for name, text in texts.items()}
 
 
+def is_settings(name: str) -> bool:
+    """Whether a file of this name holds settings for a slicer."""
+    return name.endswith(_SETTINGS)
+
+
 def three_mf_with_settings(part: Part) -> bytes:
     """The part as 3MF with the settings of its printer for PrusaSlicer."""
+    return three_mf(part, settings_comment(part))
+
+
+def settings_comment(part: Part) -> str:
+    """The settings as PrusaSlicer keeps them in a 3MF; empty without a printer."""
     from printers.slicing.prusa import parsed_settings
 
     pairs = parsed_settings(prusa_text(part)).items()
-    return three_mf(part, "".join(f"; {key} = {value}\n" for key, value in pairs))
+    return "".join(f"; {key} = {value}\n" for key, value in pairs)
 
 
 def prusa_text(part: Part) -> str:

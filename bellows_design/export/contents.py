@@ -37,6 +37,15 @@ def contents(
     return files | {MANIFEST: manifest_of(statement, files)}
 
 
+def file_names(part: Part) -> frozenset[str]:
+    """Names of all files that the manifest of an export of ``part`` lists."""
+    from bellows_design.export.companions import LEAK_TEST, settings_files
+    from bellows_design.print_sheet.names import sheet_names
+
+    of_part = {f"{part.name}{suffix}" for suffix in WRITERS}
+    return frozenset({*of_part, *settings_files(part), LEAK_TEST, *sheet_names(part.name)})
+
+
 def part_files(part: Part) -> dict[str, bytes]:
     """The part in every format."""
     return {f"{part.name}{suffix}": write(part) for suffix, write in WRITERS.items()}

@@ -30,6 +30,10 @@ LARGEST = 10_000_000
 """Bytes; a manifest has some 20 000."""
 
 
+class NoObject(DesignError):
+    """A file is JSON, and no object."""
+
+
 def manifest_of(statement: Mapping[str, Any], files: Mapping[str, bytes]) -> bytes:
     """The manifest: a ``statement`` and the fingerprints of all ``files`` it answers for."""
     fingerprints = {name: fingerprint(files[name]) for name in sorted(files)}
@@ -91,7 +95,7 @@ def parsed(content: bytes, path: Path) -> dict[str, Any]:
         why = "it is nested too deeply" if isinstance(error, RecursionError) else str(error)[:200]
         raise DesignError(f"{quoted_path(path)} is not readable as JSON: {why}.") from None
     if not isinstance(found, dict):
-        raise DesignError(f"{quoted_path(path)} holds no JSON object.")
+        raise NoObject(f"{quoted_path(path)} holds no JSON object.")
     return found
 
 

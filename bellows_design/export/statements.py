@@ -13,7 +13,9 @@ from bellows_design.print_sheet import sheet_files
 from bellows_design.printability import check_dict
 
 if TYPE_CHECKING:
+    from bellows_design.design.design import Design
     from bellows_design.pipeline import Outcome
+    from printers import PrintabilityReport
 
 
 DIGITS = 8
@@ -33,12 +35,19 @@ def grounds(found: Outcome) -> dict[str, Any]:
     """What an approval rests on, as plain values for the manifest: no times, no machine."""
     evaluation = {} if found.evaluation is None else found.evaluation.to_dict()
     return {
-        "design": found.design.model_dump(mode="json", exclude_none=True),
-        "printer": found.design.profile().model_dump(mode="json"),
-        "mesh_tolerance_mm": TOLERANCE,
-        "check": check_dict(found.design, found.report),
+        **plain_statement(found.design, found.report),
         "leak_test": found.leak_test.summary(),
         "evaluation": rounded({key: evaluation[key] for key in evaluation if key != "seconds"}),
+    }
+
+
+def plain_statement(design: Design, report: PrintabilityReport) -> dict[str, Any]:
+    """What of that needs neither evaluation nor slicer."""
+    return {
+        "design": design.model_dump(mode="json", exclude_none=True),
+        "printer": design.profile().model_dump(mode="json"),
+        "mesh_tolerance_mm": TOLERANCE,
+        "check": check_dict(design, report),
     }
 
 

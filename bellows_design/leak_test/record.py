@@ -14,10 +14,14 @@ from typing import Any, Literal
 from bellows_design.design.conditions import LeakTestSetting
 from bellows_design.design.design import Design
 from bellows_design.geometry.tessellation import ClosedMesh
+from bellows_design.validation.quoting import reproducible
 from printers.report import RuleResult
 
 RULE = "leak_test"
 """Name of the rule where the test itself is missing."""
+
+REQUIRED_RULES = ("leak_path", "printed_depth")
+"""Rules that every leak test applies: one that was not is no pass."""
 
 SWITCHED_OFF = "the design switches it off"
 """Why there is no test, as the end of a sentence."""
@@ -66,6 +70,9 @@ class LeakTest:
         outcome: What was found; None if it was not run.
         why: Why it was not run, as the end of a sentence; empty if it was.
         failed: True if it was begun and could not be finished.
+
+    ``why`` may be a slicer's words: without folders and control characters, so that two runs write
+    the same.
     """
 
     setting: LeakTestSetting
@@ -73,13 +80,25 @@ class LeakTest:
     why: str = ""
     failed: bool = False
 
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "why", reproducible(self.why))
+
     @property
     def result(self) -> Result:
-        """The worst verdict among its rules."""
+        """The worst verdict among its rules; a required one that was not applied is a failure."""
         if self.outcome is None:
             return "not run"
-        found = {rule.verdict for rule in self.outcome.rules}
-        return "fail" if "fail" in found else "warn" if "warn" in found else "pass"
+        found = {rule.verdict for rule in self.rules}
+        if "fail" in found or self.missing:
+            return "fail"
+        return "warn" if "warn" in found else "pass"
+
+    @property
+    def missing(self) -> tuple[str, ...]:
+        """Required rules that were not applied though the test was run."""
+        applied = {rule.rule for rule in self.rules}
+        required = () if self.outcome is None else REQUIRED_RULES
+        return tuple(name for name in required if name not in applied)
 
     @property
     def rules(self) -> tuple[RuleResult, ...]:
@@ -89,7 +108,8 @@ class LeakTest:
     @property
     def slicer(self) -> str | None:
         """Name and version of the program; None if the test was not run."""
-        return None if self.outcome is None else f"{self.outcome.slicer} {self.outcome.version}"
+        found = self.outcome
+        return None if found is None else reproducible(f"{found.slicer} {found.version}", 100)
 
     def summary(self) -> dict[str, Any]:
         """Setting, result, slicer and, if it was not run, why: plain values for JSON."""

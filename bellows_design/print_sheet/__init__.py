@@ -13,12 +13,11 @@ def sheet_files(found: Outcome) -> dict[str, bytes]:
     from bellows_design.print_sheet.figures import figures_of
     from bellows_design.print_sheet.html import as_html
     from bellows_design.print_sheet.markdown import as_markdown
+    from bellows_design.print_sheet.names import sheet_names
     from bellows_design.print_sheet.sheet import sheet
 
     if found.evaluation is None:
         return {}
     blocks, name = sheet(figures_of(found, found.evaluation)), found.design.name
-    return {
-        f"{name}_sheet.md": as_markdown(blocks).encode(),
-        f"{name}_sheet.html": as_html(f"{name}: print and leak test", blocks).encode(),
-    }
+    texts = as_markdown(blocks), as_html(f"{name}: print and leak test", blocks)
+    return {name: text.encode() for name, text in zip(sheet_names(name), texts, strict=True)}

@@ -1,9 +1,19 @@
 """How small a hole a pressure hold finds: the air that a part may lose, as that of one round hole.
 
 The air is an ideal gas of constant temperature in a cavity that gives way, so that its mass is
-proportional to absolute pressure times volume. What leaves through a short round hole is the
-isentropic flow of an ideal gas, choked beyond the critical ratio of pressures (ISO 6358-1:2013,
-clause 4; White, Fluid Mechanics, chapter 9), times a coefficient of discharge.
+proportional to absolute pressure times volume. Two bounds hold for what leaves through a round
+hole, and the hole is as wide as either asks for:
+
+- as through a sharp-edged orifice: isentropic flow of an ideal gas, choked beyond the critical
+  ratio of pressures (ISO 6358-1:2013, clause 4; White, Fluid Mechanics, chapter 9), times a
+  coefficient of discharge;
+- as through a capillary as long as the wall is thick: laminar isothermal flow, Hagen and
+  Poiseuille's law with the density of an ideal gas (White, Fluid Mechanics, chapter 6, and chapter
+  9 on compressible duct flow, whose acceleration is left out)
+
+      m = π d⁴ (p₁² − p₂²) / (256 μ L R T).
+
+Through walls of some 1 mm the capillary decides: the hole is much longer than it is wide.
 """
 
 from __future__ import annotations
@@ -23,7 +33,10 @@ GAS_TIMES_TEMPERATURE = 287.05 * 293.15
 """J/kg, of air at 20 °C."""
 
 DISCHARGE = 0.6
-"""Coefficient of a sharp-edged hole; a longer one lets less through, and may be wider."""
+"""Coefficient of a sharp-edged hole."""
+
+VISCOSITY = 1.82e-5
+"""Pa s, of air at 20 °C (Lemmon & Jacobsen, Int. J. Thermophysics 25, 2004)."""
 
 
 class State(Protocol):
@@ -38,7 +51,9 @@ class State(Protocol):
         """mm³."""
 
 
-def hole_of_loss(states: Sequence[State], pressure: float, loss: float, seconds: float) -> float:
+def hole_of_loss(
+    states: Sequence[State], pressure: float, loss: float, seconds: float, length: float
+) -> float:
     """Diameter, mm, of the one round hole by which a held part loses so much of its pressure.
 
     Args:
@@ -46,11 +61,30 @@ def hole_of_loss(states: Sequence[State], pressure: float, loss: float, seconds:
         pressure: At which the supply is closed, MPa over that outside; negative for a vacuum.
         loss: Fraction of ``pressure`` that is lost.
         seconds: In which it is lost, s.
+        length: Of the hole, mm: the thickness of the wall it leads through.
     """
     later = (1 - loss) * pressure
-    lost = abs(_mass(states, pressure) - _mass(states, later))
-    area = lost / (seconds * DISCHARGE * _flux((pressure + later) / 2))
-    return 1000 * math.sqrt(4 * area / math.pi)
+    rate = abs(_mass(states, pressure) - _mass(states, later)) / seconds
+    between = (pressure + later) / 2
+    return max(orifice_diameter(rate, between), capillary_diameter(rate, between, length))
+
+
+def orifice_diameter(rate: float, pressure: float) -> float:
+    """Diameter, mm, of a hole in a thin wall that passes ``rate`` (kg/s).
+
+    ``pressure``: inside, MPa over that outside.
+    """
+    return 1000 * math.sqrt(4 * rate / (math.pi * DISCHARGE * _flux(pressure)))
+
+
+def capillary_diameter(rate: float, pressure: float, length: float) -> float:
+    """Diameter, mm, of a capillary of ``length`` (mm) that passes ``rate`` (kg/s).
+
+    ``pressure``: inside, MPa over that outside.
+    """
+    squares = 1e12 * abs((ATMOSPHERE + pressure) ** 2 - ATMOSPHERE**2)
+    resistance = 256 * VISCOSITY * length * 1e-3 * GAS_TIMES_TEMPERATURE
+    return 1000 * (rate * resistance / (math.pi * squares)) ** 0.25
 
 
 def _mass(states: Sequence[State], pressure: float) -> float:

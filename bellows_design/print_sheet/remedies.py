@@ -13,10 +13,11 @@ SEALING_OVERLAP = 50.0
 """Percent of a line: that of the shipped profiles, which say what it rests on."""
 
 MORE_FLOW, MOST_FLOW = 5.0, 125.0
-"""Percent: a step, and the flow of the infill in Abboodi, arXiv 2608.13233."""
+"""Percent: a step, our choice, and the flow of the infill in Abboodi, arXiv 2608.13233."""
 
 MORE_HEAT = 5.0
-"""°C, a step."""
+"""°C, a step: our choice. No profile states the highest temperature that a filament's maker allows,
+so the remedy names it as the bound."""
 
 Remedy = tuple[str, str]
 """What is done, and why."""
@@ -66,14 +67,21 @@ def _settings(profile: PrinterProfile) -> Remedy:
 def _flow(profile: PrinterProfile) -> Iterator[Remedy]:
     flow = min(profile.slicer.flow + MORE_FLOW, MOST_FLOW)
     if flow > profile.slicer.flow:
-        why = "More plastic closes the voids between lines; too much of it closes gaps, too."
+        why = (
+            "More plastic closes the voids between lines; too much of it closes gaps, too. "
+            f"{MORE_FLOW:g} % are our choice of a step."
+        )
         yield f"Raise the flow from {profile.slicer.flow:g} to {flow:g} %.", why
 
 
 def _heat(profile: PrinterProfile) -> Remedy:
     now = profile.slicer.nozzle_temperature
-    why = "Hotter lines weld better; stop where strings begin. The stiffness changes with it."
-    return f"Raise the nozzle from {now:g} to {now + MORE_HEAT:g} °C.", why
+    why = (
+        f"Hotter lines weld better; stop where strings begin. {MORE_HEAT:g} °C are our choice of a "
+        "step. The stiffness changes with it."
+    )
+    highest = "if the filament's maker allows it"
+    return f"Raise the nozzle from {now:g} to {now + MORE_HEAT:g} °C, {highest}.", why
 
 
 def _changes(profile: PrinterProfile) -> Iterator[Remedy]:

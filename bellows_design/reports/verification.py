@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 from rich.console import RenderableType
 from rich.text import Text
 
+from bellows_design.validation.quoting import quoted_path
+
 if TYPE_CHECKING:
     from bellows_design.verification.record import Difference, Verification
 
@@ -19,16 +21,19 @@ def verification_table(found: Verification) -> Sequence[RenderableType]:
 
 def _lines(found: Verification) -> Iterator[RenderableType]:
     whole = sum(file.state == "as written" for file in found.files)
-    yield f"{found.folder}: {whole} of {len(found.files)} files are as written"
+    yield f"{quoted_path(found.folder)}: {whole} of {len(found.files)} files are as written"
     if found.rebuilt:
         same = sum(file.same_bytes for file in found.rebuilt)
         yield f"rebuilt: {same} of {len(found.rebuilt)} files have the same bytes"
-    yield from (f"other version: {_difference(each)}" for each in found.versions)
-    yield from (f"other in the manifest: {_difference(each)}" for each in found.fields)
+    yield from (Text(f"other version: {_difference(each)}") for each in found.versions)
+    yield from (Text(f"other in the manifest: {_difference(each)}") for each in found.fields)
     yield from _verdict(found)
     yield from (Text(f"  - {problem}") for problem in found.problems)
+    yield from (Text(f"  - not compared: {each}") for each in found.not_compared)
     if found.problems:
         yield Text("NOT VERIFIED", style="bold red")
+    elif found.not_compared:
+        yield Text("NOT COMPARED: nothing is known to be wrong", style="bold yellow")
     else:
         yield Text("VERIFIED", style="bold green")
 

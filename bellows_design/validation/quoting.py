@@ -2,9 +2,20 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from pathlib import Path
 
+_ESCAPE = re.compile(r"(?:\x1b\[|\x9b)[0-?]*[ -/]*[@-~]")
+"""A control sequence of ECMA-48."""
+
+_FOLDERS = re.compile(r"(?<![\w/\\.~])(?:[A-Za-z]:|~|\.{1,2})?(?:[/\\][^\s/\\'\"“”:;,()]+)*[/\\]")
+"""The folders of a path that begins at a root, at home, or where a program runs."""
+
+_TEMPORARY = re.compile(r"\b(?:bellows-[\w-]*-|tmp)\w*\b")
+"""Our temporary folders, and Python's."""
+
+_LONGEST_SAID = 10_000
 _LONGEST_QUOTE = 60
 _MOST_NAMED = 13
 _LONGEST_COMPARED = 200
@@ -20,6 +31,16 @@ def shown(text: str, longest: int) -> str:
     """``text`` in printable characters, and no more of them than ``longest``."""
     text = "".join(sign if sign.isprintable() else "?" for sign in text[: longest + 1])
     return text if len(text) <= longest else text[: longest - 1] + "…"
+
+
+def reproducible(text: str, longest: int = 300) -> str:
+    """What another program said, as it may stand in a file that two runs write alike.
+
+    Printable, on one line, without colours of a terminal, and of paths only the last name: folders
+    differ from run to run and from machine to machine, temporary ones altogether.
+    """
+    plain = " ".join(_ESCAPE.sub("", text[:_LONGEST_SAID]).split())
+    return shown(_TEMPORARY.sub("…", _FOLDERS.sub("", plain)), longest)
 
 
 def quoted_path(path: str | Path) -> str:

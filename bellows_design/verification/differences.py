@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 from typing import Any
 
 from bellows_design.errors import DesignError
 from bellows_design.export.manifest import LARGEST, RUN, parsed
 from bellows_design.files.guarded import read_file
+from bellows_design.validation.quoting import shown
 from bellows_design.verification.record import Difference, Verification
 
 MOST = 50
 """Differences that are named; where all numbers differ, more would say no more."""
+
+LARGEST_INTEGER = 2**63
+"""From here on a number is shown as text, as far as it has one."""
 
 UNCOMPARED = {"files", "sha256"}
 """Keys of the manifest that follow from the others."""
@@ -45,11 +48,20 @@ def version_differences(then: Mapping[str, Any], now: Mapping[str, Any]) -> tupl
     return tuple(found[:MOST])
 
 
-def field_differences(manifest: Mapping[str, Any], content: bytes) -> tuple[Difference, ...]:
-    """Fields that differ between a manifest and that which this version writes."""
+def field_differences(
+    manifest: Mapping[str, Any], statement: Mapping[str, Any]
+) -> tuple[Difference, ...]:
+    """Fields that differ between a manifest and what this version states, all of them."""
     found: list[Difference] = []
-    _collect("", _compared(manifest), _compared(json.loads(content)), found)
-    return tuple(found[:MOST])
+    _collect("", _compared(manifest), _compared(statement), found)
+    return tuple(found)
+
+
+def quick_part(manifest: Mapping[str, Any]) -> dict[str, Any]:
+    """What the manifest states that needs no evaluation, and whether it claims approval."""
+    keys = ("design", "printer", "mesh_tolerance_mm", "check")
+    approved = _table(manifest, "verdict").get("approved")
+    return {key: manifest.get(key) for key in keys} | {"verdict.approved": approved}
 
 
 def _compared(manifest: Mapping[str, Any]) -> dict[str, Any]:
@@ -64,7 +76,7 @@ def _processor(found: Verification) -> str | None:
         run = parsed(read_file(found.folder / RUN, "run", LARGEST), found.folder / RUN)
     except DesignError:
         return None
-    return str(_table(run, "machine").get("processor"))[:200]
+    return shown(str(_table(run, "machine").get("processor")), 200)
 
 
 def _table(content: Any, key: str) -> dict[str, Any]:
@@ -82,10 +94,19 @@ def _collect(name: str, then: Any, now: Any, found: list[Difference]) -> None:
         for number, pair in enumerate(zip(then, now, strict=True)):
             _collect(f"{name}[{number}]", *pair, found)
     elif then != now:
-        found.append(Difference(name[:200], _short(then), _short(now)))
+        found.append(Difference(shown(name, 200), _short(then), _short(now)))
 
 
 def _short(value: Any) -> Any:
-    """A value that fits on a line."""
-    plain = value is None or isinstance(value, bool | int | float)
-    return value if plain else str(value)[:200]
+    """A value that fits on a line, in printable characters."""
+    if value is None or isinstance(value, bool | float):
+        return value
+    return value if isinstance(value, int) and abs(value) < LARGEST_INTEGER else _text(value)
+
+
+def _text(value: Any) -> str:
+    """Text of a value; a number of thousands of digits has none."""
+    try:
+        return shown(str(value), 200)
+    except (ValueError, RecursionError):
+        return "too much to show"

@@ -20,6 +20,7 @@ from bellows_design.export.manifest import (
     LARGEST,
     MANIFEST,
     RUN,
+    NoObject,
     fingerprint,
     is_plain,
     parsed,
@@ -28,10 +29,13 @@ from bellows_design.export.manifest import (
 from bellows_design.export.seal import seal_holds
 from bellows_design.files.guarded import read_file
 from bellows_design.validation.quoting import quoted, quoted_path
-from bellows_design.verification.record import FileCheck
+from bellows_design.verification.record import FileCheck, State
 
 LARGEST_FILE = 512 * 2**20
 """Bytes, as for parts of other programs."""
+
+KEYS = {"format", "digest", "verdict", "design", "files", "sha256"}
+"""Of a manifest of ours."""
 
 PIECE = 2**20
 """Bytes that are read at once."""
@@ -51,9 +55,24 @@ def sealed_manifest(folder: Path) -> tuple[dict[str, Any], bytes] | FileCheck:
     if path.is_symlink() or not path.is_file():
         raise DesignError(f"{quoted_path(folder)} is no export: it holds no {MANIFEST}.")
     content = read_file(path, "manifest", LARGEST)
+    if _is_foreign(content, path):
+        raise DesignError(f"{quoted_path(path)} is no manifest of bellows-design.")
     if not seal_holds(content):
         return FileCheck(MANIFEST, "changed", _unsealed(content, path))
     return parsed_manifest(content, path), content
+
+
+def _is_foreign(content: bytes, path: Path) -> bool:
+    """Whether this is JSON of another program, not a manifest of ours that was changed.
+
+    Whoever changes ours leaves most of its keys.
+    """
+    try:
+        return len(KEYS & parsed(content, path).keys()) < 2
+    except NoObject:
+        return True
+    except DesignError:
+        return False
 
 
 def _unsealed(content: bytes, path: Path) -> str:
@@ -98,19 +117,25 @@ def _run_file(folder: Path, manifest: bytes) -> FileCheck:
 
 
 def _listed(folder: Path, name: str, print_: object) -> FileCheck:
+    """A file that the manifest lists; its name is shown in printable characters alone."""
+    state, why = _state(folder, name, print_) or ("as written", "")
+    return FileCheck(_shown(name), state, why)
+
+
+def _state(folder: Path, name: str, print_: object) -> tuple[State, str] | None:
+    """What is wrong with a listed file; None if nothing is."""
     if not is_plain(name):
-        return FileCheck(_shown(name), "no file", "the name leads out of the folder")
+        return "no file", "the name leads out of the folder"
     problem = _irregular(folder / name)
     if problem is not None:
-        return FileCheck(name, *problem)
+        return problem
     if not isinstance(print_, dict) or set(print_) != {"sha256", "bytes"}:
-        return FileCheck(name, "changed", "the manifest states no hash of it")
+        return "changed", "the manifest states no hash of it"
     found, wanted = (folder / name).lstat().st_size, print_["bytes"]
     if found != wanted or found > LARGEST_FILE:
-        return FileCheck(name, "changed", f"it has {found} bytes instead of {_shown(wanted)}")
-    if _hash(folder / name, found) != print_["sha256"]:
-        return FileCheck(name, "changed", "its hash is another than the manifest's")
-    return FileCheck(name, "as written")
+        return "changed", f"it has {found} bytes instead of {_shown(wanted)}"
+    same = _hash(folder / name, found) == print_["sha256"]
+    return None if same else ("changed", "its hash is another than the manifest's")
 
 
 def _irregular(path: Path) -> tuple[Any, str] | None:

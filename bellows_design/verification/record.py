@@ -29,17 +29,22 @@ class Rebuilt:
     Attributes:
         name: Of the file.
         same_bytes: Whether this version writes the same bytes.
-        difference: In what the file is not the part; empty if it is, or holds none.
+        difference: What is wrong with the file; empty if nothing is known to be.
+        not_compared: What could not be compared, as other programs decide it; empty if all could.
     """
 
     name: str
     same_bytes: bool
     difference: str = ""
+    not_compared: str = ""
 
 
 @dataclass(frozen=True)
 class Difference:
-    """A version, or a field of the manifest, then and now; None where there was or is none."""
+    """A version, or a field of the manifest, then and now; None where there was or is none.
+
+    Name and values come from a file of anyone: they are text that a terminal may be given.
+    """
 
     name: str
     then: Any
@@ -57,7 +62,8 @@ class Verification:
         files: Every file that is listed or there.
         rebuilt: The files beside what this version makes of the design.
         versions: Programs that differ from those of the export, the processor among them.
-        fields: Fields of the manifest that this version fills otherwise.
+        fields: Fields of the manifest that this version fills otherwise; of a quick verification
+            those that need no evaluation.
         verdict: This version's on the design; None if it could not be found. A quick one is that of
             printability alone.
         quick: Evaluation and leak test were left out.
@@ -76,11 +82,6 @@ class Verification:
     failure: str = ""
 
     @property
-    def intact(self) -> bool:
-        """Every file is as it was written, and there are no others."""
-        return all(file.state == "as written" for file in self.files)
-
-    @property
     def same_bytes(self) -> bool:
         """This version writes the same files."""
         return bool(self.rebuilt) and all(file.same_bytes for file in self.rebuilt)
@@ -90,6 +91,18 @@ class Verification:
         """A sentence for each thing that is wrong; other versions alone are none."""
         return tuple(self._problems())
 
+    @property
+    def not_compared(self) -> tuple[str, ...]:
+        """A sentence for each thing that may be right, and that other programs decide."""
+        return tuple(
+            f"{each.name}: {each.not_compared}" for each in self.rebuilt if each.not_compared
+        )
+
+    @property
+    def verified(self) -> bool:
+        """All was compared that this verification looks at, and nothing is wrong."""
+        return not self.problems and not self.not_compared
+
     def _problems(self) -> Iterator[str]:
         for file in self.files:
             if file.state != "as written":
@@ -98,9 +111,7 @@ class Verification:
             yield f"the design cannot be rebuilt: {self.failure}"
         for each in self.rebuilt:
             if each.difference:
-                yield f"{each.name}: not the part, {each.difference}"
-            elif not each.same_bytes and not self.versions:
-                yield f"{each.name}: the same versions do not write it so"
+                yield f"{each.name}: {each.difference}"
         if self.verdict is not None and not self.verdict.approved:
             rules = ", ".join(dict.fromkeys(reason.rule for reason in self.verdict.reasons))
             yield f"this version would refuse the design: {rules}"
@@ -111,8 +122,9 @@ class Verification:
             "folder": str(self.folder),
             "design": self.design,
             "digest": self.digest,
-            "verified": not self.problems,
+            "verified": self.verified,
             "problems": list(self.problems),
+            "not_compared": list(self.not_compared),
             "files": [asdict(file) for file in self.files],
             "rebuilt": [asdict(file) for file in self.rebuilt],
             "same_bytes": self.same_bytes,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -13,13 +14,15 @@ from bellows_design.export.manifest import MANIFEST
 from bellows_design.progress import SILENCE, Progress
 from bellows_design.validation.quoting import shown
 from bellows_design.verification.differences import (
+    MOST,
     field_differences,
     now,
+    quick_part,
     then,
     version_differences,
 )
 from bellows_design.verification.folder import checked_files, sealed_manifest
-from bellows_design.verification.record import FileCheck, Rebuilt, Verification
+from bellows_design.verification.record import FileCheck, Verification
 
 if TYPE_CHECKING:
     from bellows_design.approval import Verdict
@@ -41,16 +44,21 @@ class Means:
 
 @dataclass(frozen=True)
 class Again:
-    """What this version makes of a design: part, verdict and files, and the slicer it tests with.
+    """What this version makes of a design.
 
-    ``quick``: without evaluation, so that some files are not made.
+    Attributes:
+        part: Solid and mesh.
+        verdict: On the design.
+        files: Name -> content, as far as they were made.
+        statement: Fields of the manifest, as far as they are known.
+        slicer: That the leak test was made with.
     """
 
     part: Part
     verdict: Verdict
     files: Mapping[str, bytes]
+    statement: Mapping[str, Any]
     slicer: str | None = None
-    quick: bool = False
 
 
 def verify(folder: Path, quick: bool = False, means: Means | None = None) -> Verification:
@@ -85,29 +93,32 @@ def _rebuilt(
     plain: Verification, manifest: Mapping[str, Any], content: bytes, means: Means
 ) -> Verification:
     """What was found of the files, and what this version makes of the design."""
-    from bellows_design.verification.rebuild import compared, design_of, unwritten
+    from bellows_design.verification.agreement import others
+    from bellows_design.verification.rebuild import (
+        compared,
+        compared_manifest,
+        design_of,
+        unexpected,
+    )
 
     design = design_of(manifest)
     again = _quickly(design, means) if plain.quick else _wholly(design, means)
-    files = {name: made for name, made in again.files.items() if name != MANIFEST}
-    rebuilt = compared(plain.folder, manifest, again.part, files)
-    found = replace(
-        plain,
-        rebuilt=rebuilt,
-        versions=version_differences(then(plain, manifest), now(plain, again.slicer)),
-        verdict=again.verdict,
-    )
-    if again.quick:
-        return found
-    written = again.files[MANIFEST]
+    versions = version_differences(then(plain, manifest), now(plain, again.slicer))
+    other = others(versions)
+    stated = quick_part(manifest) if plain.quick else manifest
+    fields = field_differences(stated, again.statement)
+    same = again.files.get(MANIFEST) == content
+    own = () if plain.quick and not fields else (compared_manifest(same, fields, other),)
     return replace(
-        found,
+        plain,
         rebuilt=(
-            Rebuilt(MANIFEST, written == content),
-            *rebuilt,
-            *unwritten(manifest, files),
+            *own,
+            *compared(plain.folder, manifest, again.part, again.files, other),
+            *unexpected(manifest, again.part),
         ),
-        fields=field_differences(manifest, written),
+        versions=versions,
+        verdict=again.verdict,
+        fields=fields[:MOST],
     )
 
 
@@ -116,13 +127,16 @@ def _quickly(design: Design, means: Means) -> Again:
     from bellows_design.approval import without_evaluation
     from bellows_design.export.companions import settings_files
     from bellows_design.export.contents import part_files
+    from bellows_design.export.statements import plain_statement
     from bellows_design.pipeline import build_part, check
 
     means.progress.stage("geometry")
     part = build_part(design)
     means.progress.stage("check")
-    verdict = without_evaluation(check(design, part))
-    return Again(part, verdict, part_files(part) | settings_files(part), quick=True)
+    report = check(design, part)
+    files = part_files(part) | settings_files(part)
+    statement = plain_statement(design, report) | {"verdict.approved": True}
+    return Again(part, without_evaluation(report), files, statement)
 
 
 def _wholly(design: Design, means: Means) -> Again:
@@ -131,4 +145,7 @@ def _wholly(design: Design, means: Means) -> Again:
 
     found = examine(design, means.progress, means.budget, means.store, means.leak_tester)
     means.progress.stage("compare")
-    return Again(found.part, found.verdict, files_of(found), found.leak_test.slicer)
+    files = files_of(found)
+    return Again(
+        found.part, found.verdict, files, json.loads(files[MANIFEST]), found.leak_test.slicer
+    )

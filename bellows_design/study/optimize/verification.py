@@ -1,7 +1,8 @@
 """Whether an optimum holds: its part, a finer mesh of the cell, and the half actuator.
 
 A search goes by three meshes of a cell. What it found is decided upon as ``bellows run`` does, on
-as many meshes as its limits need, and compared with the half actuator, which has its own ends.
+as many meshes as its limits need, but for the leak test, and compared with the half actuator, which
+has its own ends.
 """
 
 from __future__ import annotations
@@ -24,6 +25,9 @@ ACCURACY_PERCENT = 2.0
 """The cell's meshes are refined to this estimated error of angle and stress, the least there is of
 a stress, or as far as the budget allows."""
 
+
+NOT_SLICED = "an optimisation slices nothing; bellows run does"
+"""Why the leak test is not judged."""
 
 HALF_PERCENT = 4.0
 """The same for the half actuator: on two meshes its stress is known to 10 %, on three to 3.5 %."""
@@ -104,7 +108,7 @@ def verified(
         BellowsError, MeshingError: As checks and evaluations.
     """
     from bellows_design import pipeline
-    from bellows_design.approval import decide, open_question
+    from bellows_design.approval import open_question
     from bellows_design.evaluation import evaluate
 
     def question(state: LoadedState) -> str:
@@ -119,8 +123,22 @@ def verified(
         budget=budget,
         open_question=question,
     )
-    found = Verification(design, goal, report, cell, decide(design, report, cell))
+    found = Verification(design, goal, report, cell, verdict_of(design, report, cell))
     return _with_half(found, progress, budget) if half else found
+
+
+def verdict_of(design: Design, report: PrintabilityReport, state: LoadedState) -> Verdict:
+    """The verdict of a search, which slices nothing.
+
+    The leak test is not judged, as the setting of the design says: one that requires it is not
+    approved.
+    """
+    from bellows_design.approval import decide, with_leak_test
+    from bellows_design.leak_test.record import SWITCHED_OFF, LeakTest
+
+    setting = design.limits.leak_test
+    why = SWITCHED_OFF if setting == "off" else NOT_SLICED
+    return with_leak_test(decide(design, report, state), LeakTest(setting, why=why))
 
 
 def _with_half(found: Verification, progress: Progress, budget: Budget) -> Verification:

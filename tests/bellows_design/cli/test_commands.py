@@ -327,7 +327,7 @@ def test_every_library_gmsh_needs_has_its_package_named() -> None:
 def test_the_readme_installs_what_the_program_asks_for() -> None:
     readme = (ROOT / "README.md").read_text("utf-8")
     asked = set(INSTALL.split()[3:])
-    (line,) = [line for line in readme.splitlines() if "apt-get install -y" in line]
+    line, *_ = [line for line in readme.splitlines() if "apt-get install -y" in line]
     assert asked <= set(line.split())
     assert "pip install -e ." in readme and "'.[test]'" in readme
 

@@ -50,8 +50,9 @@ def test_other_errors_are_not_taken_for_a_missing_library() -> None:
 
 def test_the_readme_installs_exactly_what_the_program_asks_for() -> None:
     lines = (ROOT / "README.md").read_text("utf-8").splitlines()
-    (line,) = [line for line in lines if "apt-get install -y" in line]
-    assert line == f"apt-get update && {INSTALL} python3-venv"
+    libraries, slicer = [line for line in lines if "apt-get install -y" in line]
+    assert libraries == f"apt-get update && {INSTALL} python3-venv"
+    assert slicer == "apt-get update && apt-get install -y prusa-slicer"
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="only Linux has Debian's packages")

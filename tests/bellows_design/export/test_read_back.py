@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import re
 import zipfile
 from collections.abc import Callable
 from dataclasses import replace
@@ -53,6 +54,87 @@ def test_another_solid_is_noticed(cube_part: Part) -> None:
     larger = replace(cube_part, solid=cq.Solid.makeBox(10, 10, 10.0001))
     with pytest.raises(NotThePart, match="another volume"):
         READERS[".step"](cube_part, WRITERS[".step"](larger))
+
+
+def test_another_solid_of_the_same_volume_is_noticed(cube_part: Part) -> None:
+    """A box of other sides, a sphere, and the cube elsewhere."""
+    import cadquery as cq
+
+    radius = (3 * 1000 / (4 * np.pi)) ** (1 / 3)
+    for solid in (
+        cq.Solid.makeBox(5, 20, 10),
+        cq.Solid.makeBox(10, 10, 10, cq.Vector(0.001, 0, 0)),
+        cq.Solid.makeSphere(radius, angleDegrees1=-90, angleDegrees2=90),
+    ):
+        content = WRITERS[".step"](replace(cube_part, solid=solid))
+        with pytest.raises(NotThePart, match="faces"):
+            READERS[".step"](cube_part, content)
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        (b'unit="millimeter"', b'unit="inch"'),
+        (b"<build", b'<build><item objectid="1"/></build><build'),
+        (b"</build>", b'<item objectid="1"/></build>'),
+        (b'objectid="1"', b'objectid="1" transform="0.5 0 0 0 0.5 0 0 0 0.5 0 0 0"'),
+        (b'objectid="1"', b'objectid="1" transform="1 0 0 0 1 0 0 0 1 0 0 0.001"'),
+        (b'objectid="1"', b'objectid="1" transform="1 0 0"'),
+        (b'objectid="1"', b'objectid="1" transform="x"'),
+        (b'objectid="1"', b'objectid="1" printable="0"'),
+        (b'objectid="1"', b'objectid="2"'),
+        (b'type="model"', b'type="support"'),
+        (b"</resources>", b'<object id="2"><mesh/></object></resources>'),
+        (b"</mesh>", b"<beamlattice/></mesh>"),
+        (b"</vertices>", b"<vertex/></vertices>"),
+        (b"</vertices>", b'<point x="1" y="1" z="1"/></vertices>'),
+        (b'x="10.000000"', b'x="NaN"'),
+    ],
+)
+def test_the_same_triangles_built_otherwise_are_another_part(
+    old: bytes, new: bytes, cube_part: Part
+) -> None:
+    content = WRITERS[".3mf"](cube_part)
+    model = files_in(content)[MODEL]
+    model = re.sub(rb' transform="[^"]*"', b"", model)  # the cube stands as it was made
+    READERS[".3mf"](cube_part, package(files_in(content) | {MODEL: model}))
+    assert old in model
+    with pytest.raises(NotThePart):
+        changed = files_in(content) | {MODEL: model.replace(old, new, 1)}
+        READERS[".3mf"](cube_part, package(changed))
+
+
+@pytest.mark.parametrize("name", ["3D/other.model", "Metadata/Slic3r_PE.config", "setup.exe"])
+def test_a_3mf_holds_nothing_beside_the_part(name: str, cube_part: Part) -> None:
+    files = files_in(WRITERS[".3mf"](cube_part))
+    with pytest.raises(NotThePart):
+        READERS[".3mf"](cube_part, package(files | {name: b"; temperature = 400"}))
+
+
+def test_a_3mf_with_the_parts_own_settings_is_the_part(cube_part: Part) -> None:
+    from bellows_design.export.companions import three_mf_with_settings
+    from printers import load_profile
+
+    part = replace(cube_part, profile=load_profile("prusa_i3"))
+    READERS[".3mf"](part, three_mf_with_settings(part))
+    with pytest.raises(NotThePart, match="stand"):  # placed on the bed, which the cube has not
+        READERS[".3mf"](cube_part, WRITERS[".3mf"](part))
+
+
+MODEL = "3D/3dmodel.model"
+
+
+def files_in(content: bytes) -> dict[str, bytes]:
+    with zipfile.ZipFile(io.BytesIO(content)) as archive:
+        return {name: archive.read(name) for name in archive.namelist()}
+
+
+def package(files: dict[str, bytes]) -> bytes:
+    file = io.BytesIO()
+    with zipfile.ZipFile(file, "w") as archive:
+        for name, content in files.items():
+            archive.writestr(name, content)
+    return file.getvalue()
 
 
 def without_its_model(content: bytes) -> bytes:

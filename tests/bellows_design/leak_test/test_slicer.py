@@ -3,17 +3,23 @@
 from __future__ import annotations
 
 import json
+import tempfile
 from pathlib import Path
 
 import pytest
+from fakes import FakeEvaluation
 
 from bellows_design import load_design, with_overrides
+from bellows_design.export.statements import files_of
 from bellows_design.leak_test.record import Unavailable
 from bellows_design.leak_test.slicer import usual_tester
-from bellows_design.pipeline import build_part
+from bellows_design.pipeline import build_part, examine
 from printers import PrintersError
 
-TWO_BUBBLES = ["length=18", "number_of_bubbles=2"]
+ONE_BUBBLE = [
+    "number_of_bubbles=1", "length=10", "bubble_width=14", "bubble_height=14", "port.depth=4"
+]  # fmt: skip
+"""The least that is sliced like a finger."""
 
 
 def test_an_empty_name_of_the_slicer_stands_for_none(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -64,15 +70,29 @@ def test_where_the_test_is_off_no_slicer_is_asked(
 
 @pytest.mark.slicer
 @pytest.mark.slow
-def test_a_short_finger_is_sliced_and_sealed() -> None:
-    design = with_overrides(load_design("finger"), TWO_BUBBLES)
-    tester = usual_tester("required")
-    assert not isinstance(tester, Unavailable)
-    found = tester(design, build_part(design).mesh)
-    assert found.slicer == "PrusaSlicer" and len(found.profile_sha256) == 64
-    assert found.rules and not [rule for rule in found.rules if rule.verdict == "fail"]
-    json.dumps(found.figures, allow_nan=False)
-    assert "rules" not in found.figures and all(rule.severity for rule in found.rules)
+def test_two_runs_with_a_slicer_seal_and_write_the_same_bytes(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Only the evaluation is made up: part, rules, slicing, leak test and files are the real ones.
+
+    The slicer works in other folders, and is asked anew.
+    """
+    design = with_overrides(load_design("finger"), ONE_BUBBLE)
+    evaluation = FakeEvaluation(design=design)
+    monkeypatch.setattr("bellows_design.analysis.evaluate.evaluate", lambda *_, **__: evaluation)
+    contents = []
+    for name in ("one", "two"):
+        (tmp_path / name).mkdir()
+        monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / name))
+        found = examine(design)
+        test = found.leak_test.outcome
+        assert test is not None and found.verdict.approved, found.verdict.reasons
+        assert test.slicer == "PrusaSlicer" and len(test.profile_sha256) == 64
+        assert not [rule for rule in test.rules if rule.verdict == "fail"]
+        json.dumps(test.figures, allow_nan=False)
+        assert "rules" not in test.figures and all(rule.severity for rule in test.rules)
+        contents.append(files_of(found))
+    assert contents[0] == contents[1] and len(contents[0]) == 11
 
 
 @pytest.mark.slicer
@@ -84,7 +104,7 @@ def test_prusaslicer_takes_place_and_settings_from_the_3mf(tmp_path: Path) -> No
     from printers.slicing.finding import required_slicer
     from printers.slicing.running import run
 
-    part = build_part(with_overrides(load_design("finger"), TWO_BUBBLES))
+    part = build_part(with_overrides(load_design("finger"), ONE_BUBBLE))
     (tmp_path / "part.3mf").write_bytes(three_mf_with_settings(part))
     command = [str(required_slicer().path), "--export-gcode", "--dont-arrange", "--datadir"]
     ended = run([*command, str(tmp_path / "data"), "part.3mf"], tmp_path, 300)

@@ -21,16 +21,19 @@ NO_SLICER = Unavailable("there is no slicer")
 
 
 def rule(verdict: Any, figure: float = 0.88) -> RuleResult:
-    return RuleResult("sliced_leak", verdict, figure, 0.95, "", "wall", f"r* is {figure}.")
+    return RuleResult("leak_path", verdict, figure, 0.95, "", "wall", f"r* is {figure}.")
+
+
+DEEP = RuleResult("printed_depth", "pass", 2.8, 2.25, "lines", "wall", "It is deep enough.")
 
 
 def leak_tester_of(*rules: RuleResult, asked: list[str] | None = None) -> LeakTester:
-    """A leak test that finds these."""
+    """A leak test that finds these, and walls that are deep enough."""
 
     def test(design: Design, mesh: ClosedMesh) -> LeakOutcome:
         if asked is not None:
             asked.append(design.name)
-        return LeakOutcome("FakeSlicer", "1.0", "ab" * 32, rules, {"ratio": 0.88}, 1.5)
+        return LeakOutcome("FakeSlicer", "1.0", "ab" * 32, (*rules, DEEP), {"ratio": 0.88}, 1.5)
 
     return test
 
@@ -61,7 +64,9 @@ def test_a_part_that_seals_is_approved(
     stated = leak_test_file(found)
     assert stated["result"] == "pass" and stated["slicer"] == "FakeSlicer 1.0"
     assert stated["profile_sha256"] == "ab" * 32
-    assert stated["rules"] == [{"rule": "sliced_leak", "verdict": "pass"}]
+    assert stated["rules"] == [
+        {"rule": name, "verdict": "pass"} for name in ("leak_path", "printed_depth")
+    ]
     assert found.folder is not None
     measured = json.loads((found.folder / "run.json").read_text("utf-8"))["leak_test"]
     assert measured["figures"] == {"ratio": 0.88} and measured["seconds"] == 1.5
@@ -71,8 +76,37 @@ def test_a_part_that_seals_is_approved(
 def test_a_leak_is_a_reason(setting: str, tmp_path: Path, stub_stages: Callable[..., None]) -> None:
     found = outcome(setting, leak_tester_of(rule("pass"), rule("fail", 1.3)), tmp_path, stub_stages)
     (reason,) = found.verdict.reasons
-    assert (reason.kind, reason.rule, reason.measured) == ("printability", "sliced_leak", 1.3)
+    assert (reason.kind, reason.rule, reason.measured) == ("printability", "leak_path", 1.3)
     assert found.folder is None and list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("rules", "missing"),
+    [
+        ((), ["leak_path", "printed_depth"]),
+        ((rule("pass"),), ["printed_depth"]),
+        ((DEEP,), ["leak_path"]),
+    ],
+)
+def test_a_leak_test_that_asked_too_little_is_no_pass(
+    rules: tuple[RuleResult, ...], missing: list[str], tmp_path: Path,
+    stub_stages: Callable[..., None],
+) -> None:  # fmt: skip
+    def test(design: Design, mesh: ClosedMesh) -> LeakOutcome:
+        return LeakOutcome("FakeSlicer", "1.0", "ab" * 32, rules)
+
+    found = outcome("if-available", test, tmp_path, stub_stages)
+    assert found.leak_test.result == "fail" and not found.verdict.approved
+    assert [(each.rule, each.measured) for each in found.verdict.reasons] == [
+        (name, "not checked") for name in missing
+    ]
+
+
+def test_the_required_rules_are_those_of_the_leak_test() -> None:
+    from bellows_design.leak_test.record import REQUIRED_RULES
+    from printers.rule_table import RULES
+
+    assert all(RULES[name].severity == "fail" for name in REQUIRED_RULES)
 
 
 def test_a_marginal_seal_is_a_warning_without_figures(
@@ -81,7 +115,7 @@ def test_a_marginal_seal_is_a_warning_without_figures(
     """Figures depend on seams, which are random: the manifest must not."""
     found = outcome("if-available", leak_tester_of(rule("warn", 0.97)), tmp_path, stub_stages)
     assert found.verdict.approved
-    assert found.verdict.warnings == ("The leak test warns: sliced_leak.",)
+    assert found.verdict.warnings == ("The leak test warns: leak_path.",)
     assert leak_test_file(found)["result"] == "warn"
 
 
@@ -120,7 +154,7 @@ def test_a_misnamed_slicer_stops_only_a_run_that_requires_it(
         return
     found = run(design(setting), tmp_path)
     assert found.verdict.approved and found.leak_test.result == "not run"
-    assert ("/nope" in found.leak_test.why) == (setting == "if-available")
+    assert ("nope" in found.leak_test.why) == (setting == "if-available")
 
 
 def test_required_without_a_slicer_is_refused_before_the_evaluation(
@@ -159,6 +193,31 @@ def test_a_slicer_that_fails_is_a_warning_or_a_reason(
     assert required.withdrawn is not None
 
 
+@pytest.mark.parametrize("setting", ["if-available", "required"])
+def test_what_a_slicer_says_is_the_same_in_every_run(
+    setting: str, tmp_path: Path, stub_stages: Callable[..., None]
+) -> None:
+    """Its folder has another name each time, and its text may hold anything."""
+
+    def written(folder: str) -> tuple[dict[str, bytes], tuple[str, ...]]:
+        def test(design: Design, mesh: ClosedMesh) -> LeakOutcome:
+            raise PrintersError(f"failed:\n\x1b[31m{folder}/part.stl\x1b[0m is bad\a in {folder}.")
+
+        found = outcome(setting, test, tmp_path / "out", stub_stages)
+        said = (*found.verdict.warnings, *(each.message for each in found.verdict.reasons))
+        place = tmp_path / "out" / "finger"
+        files = {
+            each.name: each.read_bytes() for each in place.glob("*") if each.name != "run.json"
+        }
+        return files, said
+
+    one, two = written("/tmp/bellows-slicing-1a2b"), written("/var/xy/bellows-slicing-3c4d")
+    assert one == two and bool(one[0]) == (setting == "if-available")
+    assert any("part.stl is bad? in …" in text for text in one[1])
+    assert all(text.isprintable() for text in one[1])
+    assert not [name for name, content in one[0].items() if b"slicing-" in content]
+
+
 def test_every_failure_of_the_check_is_named_beside_a_missing_slicer(
     tmp_path: Path, stub_stages: Callable[..., None]
 ) -> None:
@@ -195,4 +254,8 @@ def test_the_text_names_slicer_and_rules(tmp_path: Path, stub_stages: Callable[.
 
     found = outcome("if-available", leak_tester_of(rule("warn", 0.97)), tmp_path, stub_stages)
     lines = [str(line) for line in _leak_test(found.leak_test)]
-    assert lines[1:] == ["warn: r* is 0.97.", "leak test with FakeSlicer 1.0: warn"]
+    assert lines[1:] == [
+        "warn: r* is 0.97.",
+        "pass: It is deep enough.",
+        "leak test with FakeSlicer 1.0: warn",
+    ]

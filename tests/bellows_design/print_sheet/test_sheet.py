@@ -18,8 +18,9 @@ from bellows_design.design.design import Design
 from bellows_design.leak_test.record import Unavailable
 from bellows_design.pipeline import Outcome, examine
 from bellows_design.print_sheet import sheet_files
+from bellows_design.print_sheet.air_loss import hole_of_loss
 from bellows_design.print_sheet.blocks import Heading, Paragraph, Steps, Table
-from bellows_design.print_sheet.figures import Figures, figures_of
+from bellows_design.print_sheet.figures import ALLOWED_LOSS, HOLD_SECONDS, Figures, figures_of
 from bellows_design.print_sheet.html import as_html
 from bellows_design.print_sheet.markdown import as_markdown
 from bellows_design.print_sheet.remedies import remedies
@@ -148,6 +149,38 @@ def test_the_sheet_shows_the_figures(
         assert figure in text, figure
 
 
+def test_the_hole_leads_through_the_thinnest_wall(examined: Callable[..., Outcome]) -> None:
+    """0.8 mm at the indent, of walls of 0.8, 1.2 and 1.6 mm."""
+    found = figures(examined(load_design("finger")))
+    path = evaluation(load_design("finger")).path
+    assert found.hole == hole_of_loss(path, 0.1, ALLOWED_LOSS, HOLD_SECONDS, 0.8)
+    assert f"{1000 * (found.hole or 0):.0f} µm through the thinnest wall, 0.8 mm" in sheet_text(
+        examined(load_design("finger"))
+    )
+
+
+def test_losses_of_others_are_stated_as_they_were_measured(
+    examined: Callable[..., Outcome],
+) -> None:
+    text = sheet_text(examined(load_design("finger")))
+    assert "lost 10 of 220, 6 of 160 and 6 of 50 kPa in 120 s" in text
+
+
+@pytest.mark.parametrize("supports", [True, False])
+def test_sheet_and_settings_say_the_same_of_supports(
+    supports: bool, examined: Callable[..., Outcome]
+) -> None:
+    from bellows_design.export.companions import prusa_text
+
+    profile = load_profile("prusa_i3")
+    slicer = profile.slicer.model_copy(update={"supports": supports})
+    own = profile.model_copy(update={"slicer": slicer})
+    found = examined(load_design("finger").model_copy(update={"printer": own}))
+    text, part = sheet_text(found), replace(found.part, profile=own)
+    assert ("no supports" not in text and "with supports" in text) == supports
+    assert f"support_material = {int(supports)}\n" in prusa_text(part)
+
+
 def test_a_vacuum_is_tested_as_one(examined: Callable[..., Outcome]) -> None:
     design = with_overrides(load_design("finger"), ["load.pressure=-0.05"])
     text = sheet_text(examined(design, -60.0))
@@ -195,6 +228,7 @@ def test_remedies_begin_with_what_costs_least_and_follow_the_profile() -> None:
     flowing = profile.slicer.model_copy(update={"flow": 125.0, "seam": "aligned"})
     plain = [what for what, _ in remedies(profile)]
     assert "Look where" in plain[0] and "Dry" in plain[1] and "design" in plain[-1]
+    assert any("if the filament's maker allows it" in each for each in plain)
     assert f"flow from {profile.slicer.flow:g} to" in " ".join(plain)
     assert "Lower the layers from 0.2 to 0.1 mm." in [what for what, _ in remedies(thick)]
     other = " ".join(what for what, _ in remedies(profile.model_copy(update={"slicer": flowing})))
