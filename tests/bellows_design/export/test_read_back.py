@@ -114,7 +114,7 @@ def test_a_3mf_holds_nothing_beside_the_part(name: str, cube_part: Part) -> None
 def test_a_number_that_is_none_is_told(cube_part: Part) -> None:
     files = files_in(WRITERS[".3mf"](cube_part))
     broken = files[MODEL].replace(b'x="10.000000"', b'x="ten"', 1)
-    with pytest.raises(NotThePart, match="^a number in it is none"):
+    with pytest.raises(NotThePart, match=r"^a number in it is none"):
         READERS[".3mf"](cube_part, package(files | {MODEL: broken}))
 
 
@@ -125,7 +125,7 @@ def test_a_3mf_with_the_parts_own_settings_is_the_part(cube_part: Part) -> None:
     part = replace(cube_part, profile=load_profile("prusa_i3"))
     READERS[".3mf"](part, three_mf_with_settings(part))
     with pytest.raises(
-        NotThePart, match="^it does not stand"
+        NotThePart, match=r"^it does not stand"
     ):  # placed on the bed, which the cube has not
         READERS[".3mf"](cube_part, WRITERS[".3mf"](part))
 
