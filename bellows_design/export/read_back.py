@@ -91,6 +91,8 @@ def _read_3mf(part: Part, content: bytes) -> None:
         mesh = _only_mesh(_model_of_3mf(part, content), placement(part))
         triangles = np.array(_numbers(mesh[1], "triangle", ("v1", "v2", "v3"))).astype(np.int64)
         vertices = np.array(_numbers(mesh[0], "vertex", ("x", "y", "z")))
+    except NotThePart:  # it is a ValueError, too
+        raise
     except (ValueError, KeyError, OverflowError) as error:
         raise NotThePart(f"a number in it is none: {quoted_reason(error)}") from None
     same = np.array_equal(triangles, part.mesh.triangles)

@@ -111,13 +111,22 @@ def test_a_3mf_holds_nothing_beside_the_part(name: str, cube_part: Part) -> None
         READERS[".3mf"](cube_part, package(files | {name: b"; temperature = 400"}))
 
 
+def test_a_number_that_is_none_is_told(cube_part: Part) -> None:
+    files = files_in(WRITERS[".3mf"](cube_part))
+    broken = files[MODEL].replace(b'x="10.000000"', b'x="ten"', 1)
+    with pytest.raises(NotThePart, match=r"^a number in it is none"):
+        READERS[".3mf"](cube_part, package(files | {MODEL: broken}))
+
+
 def test_a_3mf_with_the_parts_own_settings_is_the_part(cube_part: Part) -> None:
     from bellows_design.export.companions import three_mf_with_settings
     from printers import load_profile
 
     part = replace(cube_part, profile=load_profile("prusa_i3"))
     READERS[".3mf"](part, three_mf_with_settings(part))
-    with pytest.raises(NotThePart, match="stand"):  # placed on the bed, which the cube has not
+    with pytest.raises(
+        NotThePart, match=r"^it does not stand"
+    ):  # placed on the bed, which the cube has not
         READERS[".3mf"](cube_part, WRITERS[".3mf"](part))
 
 

@@ -17,7 +17,7 @@ from bellows_design.pipeline import build_part, examine
 from printers import PrintersError
 
 ONE_BUBBLE = [
-    "number_of_bubbles=1", "length=10", "bubble_width=14", "bubble_height=14", "port.depth=4"
+    "number_of_bubbles=1", "length=12", "bubble_width=14", "bubble_height=14", "port.depth=4"
 ]  # fmt: skip
 """The least that is sliced like a finger."""
 
