@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from printers.arrays import Flags, Floats, Ints
+from printers.measure.leakage.minimum_cut import DRAIN, SOURCE, source_side
 from printers.measure.surface import Surface, label
 from printers.openings.exposure import Sky, exposure, look_around, look_closer
 from printers.tolerances import ROUNDING
@@ -32,7 +33,6 @@ like half a ball has 2, a slit at most 3, whatever its depth, a tube of one diam
 
 DARKEST = 0.1  # share of the sky added to every edge's: no edge costs more than ten times another
 LARGEST_FLOW = 2**30  # the maximum flow counts in whole numbers of 32 bits
-SOURCE, DRAIN = 0, 1
 
 
 @dataclass(frozen=True)
@@ -94,7 +94,7 @@ def _inner_side(surface: Surface, sky: Floats, inside: Flags, outside: Flags) ->
     a, b = node[first], node[second]
     crossing = a != b
     capacity = _whole(cost[crossing])
-    reached = _source_side(len(sky) + 2, a[crossing], b[crossing], capacity)
+    reached = source_side(len(sky) + 2, a[crossing], b[crossing], capacity)
     return np.asarray(reached[node])
 
 
@@ -102,21 +102,6 @@ def _whole(costs: Floats) -> NDArray[np.int32]:
     """(k,): costs in whole units, as fine as they can be while all of them add up to a flow."""
     unit = max(float(costs.sum()), ROUNDING) / LARGEST_FLOW
     return np.asarray(np.maximum(np.rint(costs / unit), 1).astype(np.int32))
-
-
-def _source_side(count: int, a: Ints, b: Ints, capacity: NDArray[np.int32]) -> Flags:
-    """(count,): nodes on the source's side of the minimum cut of a graph with the edges a-b."""
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import breadth_first_order, maximum_flow
-
-    ends = np.concatenate([a, b]), np.concatenate([b, a])
-    graph = coo_array((np.tile(capacity, 2), ends), shape=(count, count)).tocsr()
-    residual = graph - maximum_flow(graph, SOURCE, DRAIN).flow
-    residual.data[residual.data < 0] = 0
-    residual.eliminate_zeros()
-    reached = np.zeros(count, dtype=bool)
-    reached[breadth_first_order(residual, SOURCE, return_predecessors=False)] = True
-    return reached
 
 
 def _pieces(surface: Surface, inner: Flags) -> Ints:

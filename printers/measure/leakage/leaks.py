@@ -12,15 +12,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from printers.arrays import Flags, Floats, Ints
 from printers.measure.leakage.exposure import escaping_rays
+from printers.measure.leakage.minimum_cut import DRAIN, SOURCE, source_side
 from printers.measure.plugging import near_axis
 from printers.measure.surface import Surface, label
 from printers.model import Opening
 
-SOURCE, DRAIN = 0, 1  # nodes of the graph: what is certainly inside, and outside
 RIM_STEP = 0.2  # mm
 UNITS_PER_MILLIMETRE = 1000  # the maximum flow counts in whole micrometres
 OUT_IN_THE_OPEN = 18  # escaping rays: more than from the wall of a hole, half of which is covered
@@ -93,24 +92,9 @@ def _minimum_cut(surface: Surface, inside: Flags, outside: Flags) -> tuple[Flags
     capacity = np.ceil(_lengths(surface, ends) * UNITS_PER_MILLIMETRE).astype(np.int32)
     a, b = node[first], node[second]
     crossing = a != b
-    reached = _source_side(len(node) + 2, a[crossing], b[crossing], capacity[crossing])
+    reached = source_side(len(node) + 2, a[crossing], b[crossing], capacity[crossing])
     out, back = reached[a] & ~reached[b], reached[b] & ~reached[a]
     return reached[node], np.concatenate([ends[out], ends[back][:, ::-1]])
-
-
-def _source_side(count: int, a: Ints, b: Ints, capacity: NDArray[np.int32]) -> Flags:
-    """(count,): nodes on the source's side of the minimum cut of a graph with the edges a-b."""
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import breadth_first_order, maximum_flow
-
-    ends = np.concatenate([a, b]), np.concatenate([b, a])
-    graph = coo_array((np.tile(capacity, 2), ends), shape=(count, count)).tocsr()
-    residual = graph - maximum_flow(graph, SOURCE, DRAIN).flow
-    residual.data[residual.data < 0] = 0
-    residual.eliminate_zeros()
-    reached = np.zeros(count, dtype=bool)
-    reached[breadth_first_order(residual, SOURCE, return_predecessors=False)] = True
-    return reached
 
 
 def _lengths(surface: Surface, ends: Ints) -> Floats:
