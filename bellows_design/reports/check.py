@@ -30,7 +30,7 @@ def report_table(
     compared: Sequence[JudgedStance] = (),
 ) -> Sequence[RenderableType]:
     """Notes, the orientations that were compared, a row for every rule, and the sentences of those
-    that did not pass."""
+    that did not pass, or only within their tolerance."""
     table = Table(title=f"{title} on {report.printer}", title_justify="left", box=SIMPLE)
     table.add_column("", no_wrap=True)
     table.add_column("rule", no_wrap=True)
@@ -38,10 +38,15 @@ def report_table(
         table.add_column(heading)
     for rule in report.rules:
         table.add_row(*_row(rule))
-    against = [f"{rule.verdict}: {rule.message}" for rule in report.rules if rule.verdict != "pass"]
+    against = [f"{rule.verdict}: {rule.message}" for rule in report.rules if _tells(rule)]
     said = [f"note: {note}" for note in notes]
     orientations = [_orientations(compared)] if compared else []
     return [*orientations, table, *said, *against, f"printability: {report.verdict}"]
+
+
+def _tells(rule: RuleResult) -> bool:
+    """Whether its sentence says more than its row: also of a pass that needed its tolerance."""
+    return rule.verdict != "pass" or (rule.margin is not None and rule.margin < 0)
 
 
 def _orientations(compared: Sequence[JudgedStance]) -> Table:
