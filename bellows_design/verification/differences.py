@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
 from typing import Any
 
 from bellows_design.errors import DesignError
 from bellows_design.export.manifest import LARGEST, RUN, parsed
 from bellows_design.files.guarded import read_file
+from bellows_design.files.json_files import json_text
 from bellows_design.validation.quoting import shown
 from bellows_design.verification.record import Difference, Verification
 
@@ -51,9 +53,12 @@ def version_differences(then: Mapping[str, Any], now: Mapping[str, Any]) -> tupl
 def field_differences(
     manifest: Mapping[str, Any], statement: Mapping[str, Any]
 ) -> tuple[Difference, ...]:
-    """Fields that differ between a manifest and what this version states, all of them."""
+    """Fields that differ between a manifest and what this version states, all of them.
+
+    The statement is taken as it would be read from its file.
+    """
     found: list[Difference] = []
-    _collect("", _compared(manifest), _compared(statement), found)
+    _collect("", _compared(manifest), _compared(json.loads(json_text(statement))), found)
     return tuple(found)
 
 
