@@ -4,11 +4,9 @@ from __future__ import annotations
 
 import os
 import random
-import sys
 from collections.abc import Callable, Iterable
 from contextlib import suppress
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -130,8 +128,8 @@ def test_a_pressure_made_to_harm_is_refused_soon(text: str) -> None:
 @pytest.fixture
 def light_stages(monkeypatch: pytest.MonkeyPatch) -> None:
     """Every design is computed at once, and refused."""
-    fake = SimpleNamespace(evaluate=lambda *_, **__: FakeEvaluation(converged=False), refined=None)
-    monkeypatch.setitem(sys.modules, "bellows_design.analysis.evaluate", fake)  # type: ignore[arg-type]
+    answer = FakeEvaluation(converged=False)
+    monkeypatch.setattr("bellows_design.analysis.evaluate.evaluate", lambda *_, **__: answer)
     monkeypatch.setattr(pipeline, "build_part", _bodiless)
     monkeypatch.setattr(pipeline, "check", lambda *_: fake_report())
 
