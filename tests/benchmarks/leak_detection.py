@@ -201,7 +201,8 @@ def table(rows: Mapping[str, Mapping[str, Any]]) -> str:
     lines = ["| " + " | ".join((*names, *more)) + " |", "|---" * len((*names, *more)) + "|"]
     for name, row in rows.items():
         leaks = row["verdict"] == "leaks"
-        away = row["leak_distance"] if leaks else row["depth_distance"]
+        found = leaks or row["depth"] != "pass"
+        away = row["leak_distance" if leaks else "depth_distance"] if found else None
         values = (
             *(name, f"{row['ratio']:.2f}", row["verdict"]),
             *(row["width"] if leaks else None, row["lines"], row["beside_voids"], row["depth"]),
