@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import pytest
 
+from printers import PrintersError
 from printers.slicing.finding import VARIABLE, find_slicer
 
 
@@ -27,10 +29,19 @@ def own_cache(
     return folder
 
 
+@cache
+def _no_slicer() -> str:
+    """Why no slicer can be run here; empty if one can."""
+    try:
+        return "" if find_slicer() else "there is no slicer here: install PrusaSlicer"
+    except PrintersError as error:  # too old, or no PrusaSlicer
+        return str(error)
+
+
 @pytest.fixture(autouse=True)
 def no_slicer(monkeypatch: pytest.MonkeyPatch, request: pytest.FixtureRequest) -> None:
     """No test runs a slicer but those marked so, which are skipped where there is none."""
     if request.node.get_closest_marker("slicer") is None:
         monkeypatch.setenv(VARIABLE, "")
-    elif find_slicer() is None:
-        pytest.skip("there is no slicer here: install PrusaSlicer")
+    elif why := _no_slicer():
+        pytest.skip(why)
