@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TypeAlias
+from typing import TypeAlias, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from printers.arrays import Floats
 from printers.errors import PrintersError
+from printers.leak_test.result import Place
 
 Transform: TypeAlias = ArrayLike | tuple[ArrayLike, ArrayLike] | Callable[[Floats], Floats]
 """A (4, 4) matrix, a (3, 3) rotation with a translation, or a function of (n, 3) points."""
@@ -41,3 +42,8 @@ def matrix_of(transform: Transform | None) -> Floats:
 def moved(matrix: Floats, points: Floats) -> Floats:
     """(n, 3) points, mm."""
     return np.asarray(points @ matrix[:3, :3].T + matrix[:3, 3])
+
+
+def as_place(point: Floats) -> Place:
+    """A point (3,) as plain numbers."""
+    return cast(Place, tuple(float(value) + 0.0 for value in point))

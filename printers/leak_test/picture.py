@@ -1,4 +1,4 @@
-"""A picture of the layer with the leak, or with the thinnest seal."""
+"""A picture of the layer with the leak, or with the thinnest seal: what it shows, and how."""
 
 from __future__ import annotations
 
@@ -7,15 +7,20 @@ from typing import Any
 
 import numpy as np
 
-from printers.arrays import Floats
+from printers.arrays import Floats, Ints
 from printers.errors import PrintersError
 from printers.gcode.beads import KIND_NAMES, Beads
-from printers.leak_test.frames import moved
+from printers.leak_test.field import Field
+from printers.leak_test.flood import CAVITY, CLOSED, OUTSIDE
+from printers.leak_test.frames import as_place, moved
+from printers.leak_test.painting import AIR, Levels
 from printers.leak_test.result import LayerView, LeakTest
+from printers.leak_test.widest_path import WidestPath, narrowest
 from printers.report import place
 
 SIZE = 9.0  # inches
 DOTS = 110
+VIEWED = 8.0  # mm around the place
 ROUND = 8  # straight pieces of a bead's round end
 
 AIR_COLOURS = ("#e8e0d0", "#9ecae1", "#ffffff", "#bdbdbd", "#f4a3a3")
@@ -53,6 +58,69 @@ def leak_picture(test: LeakTest) -> bytes:
     made = BytesIO()
     figure.savefig(made, format="png", metadata={"Software": None})
     return made.getvalue()
+
+
+def layer_view(
+    field: Field,
+    beads: Beads,
+    path: tuple[WidestPath, Ints],
+    way: Floats,
+    to_part: Floats,
+) -> LayerView | None:
+    """The layer of the leak, or of the thinnest seal."""
+    widest, cells = path
+    points = field.place_of(cells) if len(cells) else way
+    if not len(points):
+        return None
+    middle = field.place_of(np.array([narrowest(field, cells)]))[0] if len(cells) else None
+    middle = points[len(points) // 2] if middle is None else middle
+    layer = field.layer_at(middle[2])
+    bottom, top = field.heights[layer], field.heights[layer + 1]
+    height = (bottom + top) / 2
+    there = (beads.top > height) & (beads.top - beads.height < height)
+    near = np.minimum(beads.start, beads.end) <= middle[:2] + VIEWED
+    near &= np.maximum(beads.start, beads.end) >= middle[:2] - VIEWED
+    rows, columns = _window(field, middle)
+    marks = widest.marks.reshape(field.levels.shape)[layer][rows, columns]
+    levels = field.levels[layer][rows, columns]
+    x, y = field.corner
+    corner = x + columns.start * field.voxel, y + rows.start * field.voxel
+    return LayerView(
+        beads=beads.chosen(there & near.all(axis=1)),
+        bottom=float(bottom),
+        top=float(top),
+        corner=corner,
+        voxel=field.voxel,
+        air=_kinds(marks, levels, widest.ratio, field),
+        path=points,
+        place=as_place(middle),
+        to_part=to_part,
+    )
+
+
+def _kinds(marks: Levels, levels: Levels, ratio: float, field: Field) -> Ints:
+    """The kinds of a `LayerView` in a layer.
+
+    Air that is no wider than the leak bears no mark; along its walls it belongs to what is beside.
+    """
+    from scipy.ndimage import binary_dilation
+
+    kinds = np.where(levels >= AIR, 4, 0).astype(np.int64)
+    skin = int(np.ceil(max(ratio - 1, 0.0) * field.line_width / 2 / field.voxel)) + 1
+    for kind, mark in ((1, CAVITY), (2, OUTSIDE)):
+        wider = binary_dilation(marks == mark, iterations=skin, mask=kinds == 4)
+        kinds[wider | (marks == mark)] = kind
+    kinds[marks == CLOSED] = 3
+    return kinds
+
+
+def _window(field: Field, middle: Floats) -> tuple[slice, slice]:
+    slices = []
+    for axis, count in ((1, field.levels.shape[1]), (0, field.levels.shape[2])):
+        place = (middle[axis] - field.corner[axis]) / field.voxel
+        reach = VIEWED / field.voxel
+        slices.append(slice(max(int(place - reach), 0), min(int(place + reach) + 1, count)))
+    return slices[0], slices[1]
 
 
 def _title(test: LeakTest, view: LayerView) -> str:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import cast
 
 import numpy as np
 
@@ -12,18 +11,16 @@ from printers.errors import PrintersError
 from printers.gcode.beads import Beads
 from printers.leak_test.depth import CLOSED_VOID, thinnest_seal
 from printers.leak_test.field import Field, grid_for, level_of, paint
-from printers.leak_test.flood import CAVITY, CLOSED, OUTSIDE
-from printers.leak_test.frames import Transform, matrix_of, moved
-from printers.leak_test.painting import AIR, Levels
+from printers.leak_test.frames import Transform, as_place, matrix_of, moved
+from printers.leak_test.painting import AIR
+from printers.leak_test.picture import layer_view
 from printers.leak_test.result import (
     SURELY_OPEN,
     SURELY_SEALED,
     Depth,
-    LayerView,
     Leak,
     LeakTest,
     Material,
-    Place,
     leak_verdict,
 )
 from printers.leak_test.rules import leak_rules, stretch_of_heights
@@ -34,8 +31,6 @@ from printers.profile import PrinterProfile
 
 MOST_LEAKS = 5
 WIDEST = 254
-VIEWED = 8.0
-"""mm around the place that the picture shows."""
 
 
 def leak_test(
@@ -59,8 +54,8 @@ def leak_test(
         transform: From the frame of the G-code to the part's own: a (4, 4) matrix, a tuple of
             rotation and translation, or a function of (n, 3) points. Places are reported in the
             part's coordinates. By default they are the G-code's.
-        seams: Whether to find out how much paths may lose at their ends, which takes as long as
-            the rest.
+        seams: Whether to find out how much paths may lose at their ends, which takes half as much
+            time again.
 
     Raises:
         PrintersError: One sentence: no openings or beads, an opening that is none of the printed
@@ -93,7 +88,7 @@ def leak_test(
         rules=tuple(
             leak_rules(ratio, leaks, depth, hold, material, printed.layer_heights, profile)
         ),
-        view=_view(field, printed, paths[0], way, to_part),
+        view=layer_view(field, printed, paths[0], way, to_part),
     )
 
 
@@ -117,7 +112,7 @@ def _paths(field: Field, openings: Sequence[Opening]) -> list[tuple[WidestPath, 
 def _leak(field: Field, path: WidestPath, cells: Ints, to_part: Floats) -> Leak:
     width = max(path.ratio - 1, 0.0) * field.line_width
     middle = field.place_of(np.array([narrowest(field, cells)]))
-    return Leak(path.ratio, width, _place(moved(to_part, middle)[0]), path.level >= WIDEST)
+    return Leak(path.ratio, width, as_place(moved(to_part, middle)[0]), path.level >= WIDEST)
 
 
 def _depth(
@@ -138,7 +133,7 @@ def _depth(
     beside = 0.0
     if not path.is_open:
         beside = thinnest_seal(field, path.marks, AIR, stretch).length / width
-    middle = _place(moved(to_part, seal.middle[None])[0]) if len(seal.points) else None
+    middle = as_place(moved(to_part, seal.middle[None])[0]) if len(seal.points) else None
     if path.is_open and leaks:
         middle = leaks[0].place
     return Depth(seal.length / width, seal.millimetres, beside, middle), seal.points
@@ -148,70 +143,3 @@ def _material(beads: Beads, solid_volume: float | None, profile: PrinterProfile)
     volume = float(beads.volume.sum())
     mass = volume * profile.filament.density / 1000
     return Material(volume, mass, solid_volume, profile.slicer.flow / 100)
-
-
-def _view(
-    field: Field,
-    beads: Beads,
-    path: tuple[WidestPath, Ints],
-    way: Floats,
-    to_part: Floats,
-) -> LayerView | None:
-    """The layer of the leak, or of the thinnest seal."""
-    widest, cells = path
-    points = field.place_of(cells) if len(cells) else way
-    if not len(points):
-        return None
-    middle = field.place_of(np.array([narrowest(field, cells)]))[0] if len(cells) else None
-    middle = points[len(points) // 2] if middle is None else middle
-    layer = field.layer_at(middle[2])
-    bottom, top = field.heights[layer], field.heights[layer + 1]
-    height = (bottom + top) / 2
-    there = (beads.top > height) & (beads.top - beads.height < height)
-    near = np.minimum(beads.start, beads.end) <= middle[:2] + VIEWED
-    near &= np.maximum(beads.start, beads.end) >= middle[:2] - VIEWED
-    rows, columns = _window(field, middle)
-    marks = widest.marks.reshape(field.levels.shape)[layer][rows, columns]
-    levels = field.levels[layer][rows, columns]
-    x, y = field.corner
-    corner = x + columns.start * field.voxel, y + rows.start * field.voxel
-    return LayerView(
-        beads=beads.chosen(there & near.all(axis=1)),
-        bottom=float(bottom),
-        top=float(top),
-        corner=corner,
-        voxel=field.voxel,
-        air=_kinds(marks, levels, widest.ratio, field),
-        path=points,
-        place=_place(middle),
-        to_part=to_part,
-    )
-
-
-def _kinds(marks: Levels, levels: Levels, ratio: float, field: Field) -> Ints:
-    """The kinds of a `LayerView` in a layer.
-
-    Air that is no wider than the leak bears no mark; along its walls it belongs to what is beside.
-    """
-    from scipy.ndimage import binary_dilation
-
-    kinds = np.where(levels >= AIR, 4, 0).astype(np.int64)
-    skin = int(np.ceil(max(ratio - 1, 0.0) * field.line_width / 2 / field.voxel)) + 1
-    for kind, mark in ((1, CAVITY), (2, OUTSIDE)):
-        wider = binary_dilation(marks == mark, iterations=skin, mask=kinds == 4)
-        kinds[wider | (marks == mark)] = kind
-    kinds[marks == CLOSED] = 3
-    return kinds
-
-
-def _window(field: Field, middle: Floats) -> tuple[slice, slice]:
-    slices = []
-    for axis, count in ((1, field.levels.shape[1]), (0, field.levels.shape[2])):
-        place = (middle[axis] - field.corner[axis]) / field.voxel
-        reach = VIEWED / field.voxel
-        slices.append(slice(max(int(place - reach), 0), min(int(place + reach) + 1, count)))
-    return slices[0], slices[1]
-
-
-def _place(point: Floats) -> Place:
-    return cast(Place, tuple(float(value) + 0.0 for value in point))

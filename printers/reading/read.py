@@ -34,11 +34,6 @@ def read_part(path: Path | str) -> ReadPart:
         raise PrintersError(f"{quoted(str(path))} cannot be taken as a part: {error}.") from None
 
 
-def is_part_file(name: str) -> bool:
-    """Whether the name ends as that of a file which can be read."""
-    return Path(name).suffix.lower() in READERS
-
-
 def _reader_for(path: Path) -> Callable[[bytes], ReadPart]:
     reader = READERS.get(path.suffix.lower())
     if reader is None:
