@@ -100,9 +100,11 @@ def temporary_beside(target: Path) -> Path:
 
 def remove_leftovers(folder: Path) -> None:
     """Remove what processes of this machine that are no more left in ``folder``."""
-    if not folder.is_dir():
+    try:
+        present = tuple(folder.iterdir())
+    except (FileNotFoundError, NotADirectoryError):
         return
-    for path in folder.iterdir():
+    for path in present:
         if MARK in path.name and _is_left_over(path.name) and not is_locked(path):
             with suppress(OSError):
                 remove(path)

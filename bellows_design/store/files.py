@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import io
 import json
 from collections.abc import Mapping
@@ -20,6 +21,12 @@ VALUES = "values"
 LARGEST = 2**31
 """Bytes. No evaluation within any budget comes near."""
 
+_VANISHED = errno.ENOENT, errno.EEXIST
+"""Errors where the folder is gone; the second is of ``mkdir`` that found it a moment before."""
+
+_ATTEMPTS = 100
+"""Each fails only if others remove the folder just between its making and the first file in it."""
+
 
 def content_of(values: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]]) -> bytes:
     """The content of such a file."""
@@ -30,10 +37,19 @@ def content_of(values: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]]) ->
 
 
 def write(path: Path, content: bytes) -> None:
-    """Write a file completely or not at all. Raises ``CannotWrite``, an ``OSError``."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    with replacing(path) as temporary:
-        temporary.write_bytes(content)
+    """Write a file completely or not at all. Raises ``CannotWrite``, an ``OSError``.
+
+    Others may remove the folder as long as it is empty: then it is made again.
+    """
+    for attempt in range(1, _ATTEMPTS + 1):
+        try:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            with replacing(path) as temporary:
+                temporary.write_bytes(content)
+            return
+        except OSError as error:
+            if error.errno not in _VANISHED or attempt == _ATTEMPTS:
+                raise
 
 
 def read(path: Path) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:

@@ -5,8 +5,10 @@ from __future__ import annotations
 import os
 import pickle
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
+from threading import Event
 
 import numpy as np
 import pytest
@@ -183,6 +185,29 @@ def test_another_kind_of_result_is_not_found_among_evaluations(
     assert other.keep(KEY, evaluation)
     assert store.find(KEY, DESIGN) is None
     assert other.find(KEY, DESIGN) is not None
+
+
+def test_a_folder_that_others_remove_whenever_it_is_empty_takes_every_file(tmp_path: Path) -> None:
+    """As ``clear`` and ``keep`` of other processes do with the last result of some surroundings."""
+    file = tmp_path / "kind" / "surroundings" / "result.npz"
+    finished = Event()
+
+    def remove_empty_folders() -> None:
+        while not finished.wait(1e-4):
+            for folder in (file.parent, file.parent.parent):
+                with suppress(OSError):
+                    folder.rmdir()
+
+    with ThreadPoolExecutor(1) as pool:
+        removing = pool.submit(remove_empty_folders)
+        try:
+            for turn in range(300):
+                write(file, str(turn).encode())
+                assert file.read_bytes() == str(turn).encode()
+                file.unlink()
+        finally:
+            finished.set()
+        removing.result()
 
 
 def test_readers_beside_writers_and_removers_see_whole_results(
