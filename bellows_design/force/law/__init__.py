@@ -1,0 +1,1 @@
+"""How half a bubble turns and stretches under pressure and section loads, as a table."""
