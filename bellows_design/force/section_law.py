@@ -1,10 +1,10 @@
 """What a chain needs to know of a piece of the actuator: motion under section loads.
 
-The piece lies between two sections, planes normal to y's plane of symmetry: the middle of a bubble
-and the middle of the gap beside it. Seen from the first, the second turns by ``rotation`` (rad,
-positive from +x towards -z, as the actuator curls under pressure), moves away by ``extension`` along
-the first one's normal and by ``slip`` (mm) along its plane, towards -z. All loads and energies
-are those of the full width. The origin of a section is its point at the height z = 0.
+The piece lies between two sections, normal to the plane of symmetry: the middle of a bubble and the
+middle of the gap beside it. Seen from the first, the second turns by ``rotation`` (rad, positive
+from +x towards -z, as the actuator curls under pressure), moves away by ``extension`` along the
+first one's normal and by ``slip`` (mm) along its plane, towards -z. All loads and energies are
+those of the full width. The origin of a section is its point at the height z = 0.
 
 The complementary energy G(p; M, N, Q) has the motion as its derivatives by the section loads M
 (N mm), N and Q (N), that work on it, and the enclosed volume as that by the pressure. So a chain
