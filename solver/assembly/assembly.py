@@ -22,7 +22,7 @@ from solver.kernels.stress import extrapolated_stress
 from solver.linear.sparsity import Pattern
 from solver.mesh.checks import check_elements
 from solver.mesh.elements import tetrahedron_rule
-from solver.problem.loads import couple, nodal_forces
+from solver.problem.loads import nodal_forces, plane_loads
 from solver.problem.problem import Problem
 from solver.problem.springs import stiffness_matrix
 from solver.problem.supports import Supports
@@ -79,7 +79,7 @@ class Assembly:
         self._facets = pressure_facets(mesh, self.layout.triangles, *self.layout.facets)
         self.dead_force = self.numbering.gather(nodal_forces(mesh, problem.loads))
         if self.plane is not None:
-            self.dead_force[self.numbering.plane[0]] += couple(problem.loads)
+            self.dead_force[self.numbering.plane] += plane_loads(problem.loads)
         self.springs = Springs.of(problem, self.numbering, self.pattern)
         still = np.zeros(mesh.nodes.shape) if start is None else start
         self._rim = FreeRim.of(problem, self.numbering, self.pattern, still)

@@ -17,7 +17,7 @@ from solver.assembly.free_rim import free_edges, place_of
 from solver.assembly.swept_volume import swept_volume
 from solver.errors import SolverError
 from solver.kernels.assembly import total_energy
-from solver.problem.loads import couple, nodal_forces
+from solver.problem.loads import nodal_forces, plane_loads
 from solver.problem.springs import stiffness_matrix
 from solver.results.solution import Solution, check_solution
 
@@ -114,4 +114,4 @@ def _dead_work(solution: Solution) -> float:
     if len(solution.remaining_force):
         forces += solution.remaining_force
     work = float((forces * solution.displacement).sum())
-    return work + load * couple(loads) * solution.plane[0]
+    return work + load * float((plane_loads(loads) * solution.plane).sum())
