@@ -77,9 +77,10 @@ class Couple:
 
 @dataclass(frozen=True)
 class AxialForce:
-    """A dead force along x on the problem's moving plane, at the plane's point at the height z = 0.
+    """A dead force along x on the problem's moving plane, at its section's origin.
 
-    It does work as the plane shifts, none as it turns about that point.
+    That is the plane's point that lies as far below the section's mean height as z = 0 does in the
+    undeformed body; the force is spread evenly over the section (``solver.assembly.section``).
 
     Attributes:
         force: N; positive pulls the plane along +x.
@@ -127,7 +128,7 @@ def loaded_surfaces(loads: Sequence[Load]) -> tuple[str, ...]:
 
 
 def plane_loads(loads: Sequence[Load]) -> Reals:
-    """Couple (N mm) and axial force (N) on the moving plane (2,): they work on tilt and shift.
+    """Couple (N mm) and axial force (N) on the moving plane's section, (2,).
 
     Raises ``SolverError`` if they are not finite.
     """

@@ -203,8 +203,7 @@ def _vectors(surface: str, given: object) -> Reals:
 def pin(mesh: Mesh, moving_plane: str) -> int:
     """The node of a moving plane whose height in the plane is fixed: the first of the least z.
 
-    Nothing else holds a cell along z. The reaction is zero unless there is an axial force, whose
-    part along the tilted plane it carries.
+    Nothing else holds a cell along z. As no load acts along z, the reaction is zero.
     """
     nodes = mesh.surface_nodes(moving_plane)
     return int(nodes[mesh.nodes[nodes, 2].argmin()])

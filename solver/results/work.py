@@ -11,6 +11,7 @@ import numpy as np
 from solver.arrays import Reals
 from solver.assembly.assembly import unbalanced_forces
 from solver.assembly.contact import contact_pairs
+from solver.assembly.section import Section
 from solver.assembly.state import State
 from solver.assembly.swept_volume import swept_volume
 from solver.errors import SolverError
@@ -80,8 +81,8 @@ class _Station:
     """What does work at a state.
 
     ``dead`` and ``supports``: nodal forces (n, 3), N; ``planes``: forces (k, 3) of rigid planes and
-    their places; ``section``: couple (N mm) and axial force (N) on the moving plane (2,), and its
-    tilt and shift.
+    their places; ``section``: couple (N mm) and axial force (N) on the moving plane (2,), and what
+    they work on: tilt and displacement of the section's origin.
     """
 
     problem: Problem
@@ -112,8 +113,14 @@ class _Station:
             dead=load * nodal_forces(problem.mesh, problem.loads) + _remaining(solution),
             supports=_support_forces(solution),
             planes=_planes(problem, state, load),
-            section=(load * plane_loads(problem.loads), state.plane),
+            section=(load * plane_loads(problem.loads), _section_motion(problem, state)),
         )
+
+
+def _section_motion(problem: Problem, state: State) -> Reals:
+    """Tilt and displacement of the origin of the section in the moving plane (2,)."""
+    section = Section.of(problem)
+    return np.zeros(2) if section is None else section.motion(state)
 
 
 def _support_forces(solution: Solution) -> Reals:

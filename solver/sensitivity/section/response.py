@@ -22,6 +22,7 @@ import numpy as np
 
 from solver.arrays import Reals
 from solver.assembly.pressure import enclosed_volume
+from solver.assembly.section import Section
 from solver.errors import SolverError
 from solver.results.energy import potential
 from solver.results.solution import Solution
@@ -37,7 +38,9 @@ class SectionDerivatives:
 
     Attributes:
         tilt: of the moving plane, rad.
-        shift: of the moving plane along x, mm.
+        shift: displacement along x of the section's origin, mm: of the moving plane's point that
+            lies as far below the section's mean height as z = 0 does in the undeformed body. (Not
+            ``Solution.plane``, which is where the plane meets z = 0, below or above a single node.)
         volume: enclosed by the pressurised surfaces, mm^3.
         volume_at_rest: in the undeformed cell, mm^3.
         pressure: MPa.
@@ -85,15 +88,17 @@ def section_response(solution: Solution, newton: Workspace | None = None) -> Sec
     """
     check_equilibrium(solution)
     problem = solution.problem
-    if problem.moving_plane is None:
+    section = Section.of(problem)
+    if section is None:
         raise SolverError("section_response: the problem has no moving plane.")
     system = TangentSystem.of(solution, newton)
-    rows = _rows(system)
+    rows = _rows(system, section)
     solved = [system.solve(row) for row in rows]
+    tilt, shift = section.motion(solution.state).tolist()
     none = np.zeros_like(solution.displacement)
     return SectionDerivatives(
-        tilt=solution.plane[0],
-        shift=solution.plane[1],
+        tilt=tilt,
+        shift=shift,
         volume=enclosed_volume(problem.mesh, solution.displacement, problem.pressurised),
         volume_at_rest=enclosed_volume(problem.mesh, none, problem.pressurised),
         pressure=solution.pressure,
@@ -104,9 +109,7 @@ def section_response(solution: Solution, newton: Workspace | None = None) -> Sec
     )
 
 
-def _rows(system: TangentSystem) -> tuple[Reals, Reals, Reals]:
-    """Derivatives (m,) of tilt, shift and volume by the unknowns."""
-    numbering = system.at.assembly.numbering
-    tilt, shift = np.zeros((2, numbering.size))
-    tilt[numbering.plane[0]] = shift[numbering.plane[1]] = 1.0
-    return tilt, shift, -system.equilibrium.force
+def _rows(system: TangentSystem, section: Section) -> Reals:
+    """Derivatives (3, m) of tilt, shift and volume by the unknowns."""
+    rates = section.rates(system.at.state, system.at.assembly.numbering)
+    return np.vstack([rates, -system.equilibrium.force])
