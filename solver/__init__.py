@@ -41,6 +41,7 @@ if TYPE_CHECKING:
     from solver.sensitivity.gradients import Gradients, ResponseGradient, gradients
     from solver.sensitivity.materials import constant_changes, material_derivatives
     from solver.sensitivity.section.response import SectionDerivatives, section_response
+    from solver.sensitivity.section.shear import shear_compliance
     from solver.sensitivity.sensitivities import Sensitivities, sensitivities
     from solver.sensitivity.smooth_peak import SmoothPeak
 
@@ -94,6 +95,7 @@ __all__ = [
     "rotation",
     "section_response",
     "sensitivities",
+    "shear_compliance",
     "solve",
     "strain_energy",
     "trace",
@@ -133,6 +135,7 @@ __getattr__ = imported_when_asked_for(
         "sensitivity.gradients": ("Gradients", "ResponseGradient", "gradients"),
         "sensitivity.materials": ("constant_changes", "material_derivatives"),
         "sensitivity.section.response": ("SectionDerivatives", "section_response"),
+        "sensitivity.section.shear": ("shear_compliance",),
         "sensitivity.sensitivities": ("Sensitivities", "sensitivities"),
         "sensitivity.smooth_peak": ("SmoothPeak",),
         "results.stress": ("Peak", "nodal_cauchy", "nodal_von_mises", "peak_von_mises"),
