@@ -8,10 +8,11 @@ import numpy as np
 
 from solver.arrays import Reals
 from solver.assembly.colouring import chunks
-from solver.assembly.contact import Contacts, contact_pairs
+from solver.assembly.contact import Contacts
 from solver.assembly.free_rim import FreeRim
 from solver.assembly.layout import Layout
 from solver.assembly.moving_plane import MovingPlane
+from solver.assembly.pairs.made import contact_pairs
 from solver.assembly.pressure import pressure_facets
 from solver.assembly.springs import Springs
 from solver.assembly.state import State
@@ -175,7 +176,7 @@ class Assembly:
     def energy(self, state: State, load: float = 0.0) -> float:
         """Pi of the solid, its springs and contacts, N mm.
 
-        Its gradient is the residual without pressure and dead loads; rigid planes are where they
+        Its gradient is the residual without pressure and dead loads; rigid bodies are where they
         are at the fraction ``load`` of the load.
         """
         solid = total_energy(self._solid, state.displacement, state.hydrostatic_pressure)
@@ -192,7 +193,7 @@ def unbalanced_forces(problem: Problem, state: State, pressure: float, load: flo
     """Out-of-balance nodal forces (n, 3) in N: zero except where supports act.
 
     Under ``pressure`` (MPa) and the fraction ``load`` of the dead loads and of the motions of rigid
-    planes; springs and contacts belong to the balance.
+    bodies; springs and contacts belong to the balance.
     """
     mesh = problem.mesh
     everything = number_unknowns(mesh, NO_SUPPORTS)

@@ -14,7 +14,7 @@ from solver.mesh.mesh import Mesh
 from solver.problem.supports import Supports
 
 if TYPE_CHECKING:
-    from solver.problem.contacts import ContactPlane
+    from solver.problem.contacts import AnyContact
     from solver.problem.loads import Load
     from solver.problem.springs import Spring
 
@@ -61,13 +61,13 @@ class Problem:
             resultant of the pressure in the cavity beyond it (``MovingPlane``), and the couples.
         sharp_edge_radius: mm; stresses nearer than that to an edge at which the ideal body's are
             unbounded are left out of peaks (``solver.results.sharp_edges``).
-        contacts: surfaces that may not cross planes of symmetry or rigid planes, some of which
+        contacts: surfaces that may not cross planes of symmetry or rigid bodies, some of which
             move with the load (``solver.assembly.contact``); with a moving plane no rigid ones.
         springs: linear springs between the body and the ground; none with a moving plane.
 
     Raises:
         SolverError: a surface is unknown, has no triangles or is not made of outer faces, the
-            moving plane is not plane, loads, springs or rigid planes do not go with it, a contact
+            moving plane is not plane, loads, springs or rigid bodies do not go with it, a contact
             has no plane, supports and springs leave a rigid motion free, or the supports leave the
             pressure of an incompressible body undetermined.
     """
@@ -80,7 +80,7 @@ class Problem:
     axis: SlenderAxis | None = None
     moving_plane: str | None = None
     sharp_edge_radius: float = 0.0
-    contacts: tuple[ContactPlane, ...] = ()
+    contacts: tuple[AnyContact, ...] = ()
     springs: tuple[Spring, ...] = ()
 
     def __post_init__(self) -> None:

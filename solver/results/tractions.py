@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from solver.arrays import Reals
-from solver.assembly.contact import contact_pairs
+from solver.assembly.pairs.made import contact_pairs
 from solver.mesh.elements import triangle_rule
 from solver.problem.loads import Traction, nodal_forces
 from solver.problem.springs import FoundationSpring, stiffness_matrix
