@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from solver.paths.load_stepping import solve
     from solver.paths.neighbouring import Neighbouring, neighbouring
     from solver.paths.volume.control import inflate
-    from solver.problem.contacts import Contact
+    from solver.problem.contacts import Contact, SurfaceContact
     from solver.problem.loads import BodyForce, Couple, PointForce, Traction
     from solver.problem.problem import Problem, SlenderAxis
     from solver.problem.rigid_bodies import RigidCylinder, RigidPlane, RigidSphere
@@ -75,6 +75,7 @@ __all__ = [
     "Solution",
     "SolverOptions",
     "Supports",
+    "SurfaceContact",
     "Trace",
     "Traction",
     "Work",
@@ -118,7 +119,7 @@ __getattr__ = imported_when_asked_for(
         "nonlinear.options": ("SolverOptions",),
         "paths.volume.control": ("inflate",),
         "problem.loads": ("BodyForce", "Couple", "PointForce", "Traction"),
-        "problem.contacts": ("Contact",),
+        "problem.contacts": ("Contact", "SurfaceContact"),
         "problem.rigid_bodies": ("RigidCylinder", "RigidPlane", "RigidSphere"),
         "problem.problem": ("Problem", "SlenderAxis"),
         "problem.springs": ("FoundationSpring", "NodeSpring"),

@@ -93,7 +93,7 @@ class Assembly:
 
     @property
     def pattern(self) -> Pattern:
-        """Sparsity pattern of the tangent without contact at a moving plane."""
+        """Sparsity pattern of the tangent without contact at a moving plane or between surfaces."""
         return self.layout.pattern
 
     def evaluate(
@@ -109,6 +109,8 @@ class Assembly:
         self._add_springs(state, tangent, residual, values)
         values, pattern = self.contacts.add(state, tangent, residual, values, load)
         skew = self._skew(state, pressure) if tangent else np.zeros(0)
+        if len(skew):
+            skew = self.contacts.in_pattern(skew, state, load)
         return Equilibrium(residual, force, values, smallest, pattern, skew)
 
     @property

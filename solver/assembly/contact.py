@@ -1,8 +1,9 @@
-"""Unilateral contact, without friction, of a body with its mirror images and with rigid bodies.
+"""Unilateral contact, without friction, with mirror images, rigid bodies, and between surfaces.
 
 Bodies that mirror each other touch in the plane between them, so it suffices that no point crosses
 that plane, as with a rigid one. With g the signed distance of a point from its plane (or cylinder,
-or sphere), positive on the body's side, and d = -g, the contact energy per reference area is
+sphere, or another surface), positive on the body's side, and d = -g, the contact energy per
+reference area is
 
     psi(d) = k d^3 / (6 s)                      for 0 < d < s,
              k (d^2 / 2 - s d / 2 + s^2 / 6)    beyond,            0 for d <= 0,
@@ -11,7 +12,8 @@ a penalty of stiffness k (MPa/mm), smoothed over the depth s so that the pressur
 slope are continuous. It is integrated by the six-point rule over the reference surface. What g is,
 and its derivatives, is in ``solver.assembly.pairs``. A node on the moving plane of a cell has g = 0
 from it whatever the unknowns are. Residual and tangent are derivatives of the energy, so the
-tangent is symmetric. Without contact its sparsity pattern is that of the solid alone.
+tangent is symmetric. Without contact its sparsity pattern is that of the solid alone; two surfaces
+in contact widen it (``solver.assembly.pairs.coupling``).
 """
 
 from __future__ import annotations
@@ -24,14 +26,16 @@ import numpy as np
 
 from solver.arrays import Integers, Reals
 from solver.assembly.moving_plane import MovingPlane
+from solver.assembly.pairs.coupling import Coupling
 from solver.assembly.pairs.made import contact_pair, contact_pairs
 from solver.assembly.pairs.pair import ContactPair, PlaneUnknowns
 from solver.assembly.pairs.planes import PlanePair
+from solver.assembly.pairs.surfaces import SurfacePair
 from solver.assembly.state import State
 from solver.errors import SolverError
 from solver.linear.sparsity import Pattern, widened
 from solver.mesh.proximity import OPPOSING, facet_normals
-from solver.problem.contacts import AnyContact, bodies_move, on_moving_plane
+from solver.problem.contacts import AnyContact, SurfaceContact, bodies_move, on_moving_plane
 from solver.problem.problem import Problem
 from solver.problem.rigid_bodies import RigidBody, RigidPlane
 from solver.problem.unknowns import Numbering
@@ -75,6 +79,7 @@ class Contacts:
         self._pattern = pattern
         self._size = problem.mesh.size
         self._pairs = tuple(contact_pair(problem, each, numbering) for each in problem.contacts)
+        self._coupling = Coupling(pattern, len(self._pairs))
         if not start.any():
             _check_apart(problem, self._pairs)
 
@@ -160,11 +165,9 @@ class Contacts:
         pattern without contact, and empty unless ``tangent``.
         """
         active = [pair for pair in self._pairs if pair.touches(state, load)]
-        pattern = self._pattern
-        if tangent and any(on_moving_plane(pair.contact) for pair in active):
-            pattern, places = self._widened
-            solid, values = values, np.zeros(len(pattern.indices))
-            values[places] = solid
+        pattern, places = self._widened_for(state, active) if tangent else (self._pattern, None)
+        if places is not None:
+            values = spread(values, places, pattern)
         for pair in active:
             at_plane = self._plane_unknowns(state)
             pair.add(state, load, at_plane, residual, values, pattern if tangent else None)
@@ -176,11 +179,37 @@ class Contacts:
         heights = nowhere if self._plane is None else self._plane.heights(state)
         return PlaneUnknowns(heights, state.plane[0])
 
+    def in_pattern(self, values: Reals, state: State, load: float) -> Reals:
+        """Values in the solid's pattern as ones in the pattern that ``add`` returned last."""
+        active = [pair for pair in self._pairs if pair.touches(state, load)]
+        pattern, places = self._widened_for(state, active)
+        return values if places is None else spread(values, places, pattern)
+
+    def _widened_for(
+        self, state: State, active: list[ContactPair]
+    ) -> tuple[Pattern, Integers | None]:
+        """Pattern that active contacts need, and positions of the solid's entries if another."""
+        if any(on_moving_plane(pair.contact) for pair in active):
+            return self._widened
+        touching = [
+            (number, pair, pairs)
+            for number, pair in enumerate(self._pairs)
+            if isinstance(pair, SurfacePair) and len(pairs := pair.coupled(state))
+        ]
+        return self._coupling.widened(touching) if touching else (self._pattern, None)
+
     @cached_property
     def _widened(self) -> tuple[Pattern, Integers]:
         """Pattern with contact at the moving plane, and positions of the solid's entries in it."""
         cells = [pair.face.dofs for pair in self._pairs if on_moving_plane(pair.contact)]
         return widened(self._pattern, np.concatenate(cells))
+
+
+def spread(values: Reals, places: Integers, pattern: Pattern) -> Reals:
+    """Values of the solid's entries, which have these places in a wider pattern, in that one."""
+    wide = np.zeros(len(pattern.indices))
+    wide[places] = values
+    return wide
 
 
 def lowest_gaps(
@@ -200,8 +229,9 @@ def lowest_gaps(
 def image_gaps(problem: Problem, displacement: Reals, plane: Reals) -> tuple[float | None, ...]:
     """Least gap (mm) between each contact's surface and its mirror image.
 
-    None where there are no facing parts, and for rigid bodies. Arguments as for ``lowest_gaps``.
-    Computed from flat facets; in contact minus the overlap of the surface and its image.
+    None where there are no facing parts, and for contact with anything but planes of symmetry.
+    Arguments as for ``lowest_gaps``. Computed from flat facets; in contact minus the overlap of the
+    surface and its image.
     """
     state = State(displacement, np.zeros(0), np.asarray(plane, float))
     return tuple(
@@ -244,4 +274,6 @@ def _crossing(contact: AnyContact) -> tuple[str, str]:
         return "beyond its plane", "on the side to which the normal points"
     if isinstance(contact, RigidBody):
         return f"inside its {contact.kind}", "outside"
+    if isinstance(contact, SurfaceContact):
+        return f"behind {contact.other!r}", "in front of it"
     return "beyond its plane", "on one side"

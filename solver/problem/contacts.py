@@ -49,7 +49,54 @@ class Contact:
             )
 
 
-AnyContact: TypeAlias = Contact | RigidPlane | RigidCylinder | RigidSphere
+@dataclass(frozen=True)
+class SurfaceContact:
+    """Frictionless contact of a surface of the body with another one, which it may not cross.
+
+    The pressure is integrated over the first surface alone: the other one, which bears it, is
+    better the coarser or the stiffer one.
+
+    Attributes:
+        surface: name of the surface whose points are kept on the outer side of the other one.
+        other: name of the other surface; the two share no node.
+        penetration: depth at a contact pressure equal to the material's initial shear modulus, mm;
+            other pressures in proportion.
+        reach: how deep behind the other surface a point is still taken for one in contact, mm: more
+            than a correction on the way to equilibrium moves it, less than the body is thick there.
+            By default a mean edge of the mesh.
+
+    Raises:
+        SolverError: a penetration or reach that is not positive and finite, or a surface that is to
+            touch itself.
+    """
+
+    surface: str
+    other: str
+    penetration: float
+    reach: float | None = None
+
+    def __post_init__(self) -> None:
+        for name in ("penetration", "reach"):
+            value = getattr(self, name)
+            if value is None and name == "reach":
+                continue
+            check_number(f"contacts: {name}", value)
+            if not 0 < value < np.inf:
+                raise SolverError(f"contacts: {name} = {value:g} mm must be above 0 and finite.")
+        if self.surface == self.other:
+            raise SolverError(
+                f"contacts: the surface {self.surface!r} must touch another one, not itself."
+            )
+
+
+AnyContact: TypeAlias = Contact | SurfaceContact | RigidPlane | RigidCylinder | RigidSphere
+
+
+def surfaces_of(contact: AnyContact) -> tuple[str, ...]:
+    """Names of the surfaces of the body that a contact is about."""
+    if isinstance(contact, SurfaceContact):
+        return contact.surface, contact.other
+    return (contact.surface,)
 
 
 def on_moving_plane(contact: AnyContact) -> bool:
@@ -71,11 +118,12 @@ def check_contacts(
     for contact in contacts:
         if not isinstance(contact, AnyContact):
             raise SolverError(
-                "contacts: needs Contact, RigidPlane, RigidCylinder or RigidSphere, "
-                f"got {contact!r}."
+                "contacts: needs Contact, SurfaceContact, RigidPlane, RigidCylinder or "
+                f"RigidSphere, got {contact!r}."
             )
-        if len(mesh.triangles(contact.surface)) == 0:
-            raise SolverError(f"contacts: the surface {contact.surface!r} has no triangles.")
+        for surface in surfaces_of(contact):
+            if len(mesh.triangles(surface)) == 0:
+                raise SolverError(f"contacts: the surface {surface!r} has no triangles.")
         if on_moving_plane(contact) and moving_plane is None:
             raise SolverError(
                 f"contacts: the surface {contact.surface!r} needs an axis, as the problem has no "
@@ -83,7 +131,23 @@ def check_contacts(
             )
         if isinstance(contact, RigidBody):
             _check_rigid(mesh, contact, moving_plane)
+        if isinstance(contact, SurfaceContact):
+            _check_surfaces(mesh, contact, moving_plane)
     return tuple(contacts)
+
+
+def _check_surfaces(mesh: Mesh, contact: SurfaceContact, moving_plane: str | None) -> None:
+    """Raise ``SolverError`` for surfaces at a cell, or ones that share nodes."""
+    if moving_plane is not None:
+        raise SolverError(
+            "contacts: a cell with a moving plane touches mirror images, not other surfaces."
+        )
+    one, other = mesh.surface_nodes(contact.surface), mesh.surface_nodes(contact.other)
+    if len(np.intersect1d(one, other)):
+        raise SolverError(
+            f"contacts: the surfaces {contact.surface!r} and {contact.other!r} share nodes; those "
+            "of two that touch must not."
+        )
 
 
 def _check_rigid(mesh: Mesh, contact: RigidBody, moving_plane: str | None) -> None:

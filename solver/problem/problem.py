@@ -61,8 +61,9 @@ class Problem:
             resultant of the pressure in the cavity beyond it (``MovingPlane``), and the couples.
         sharp_edge_radius: mm; stresses nearer than that to an edge at which the ideal body's are
             unbounded are left out of peaks (``solver.results.sharp_edges``).
-        contacts: surfaces that may not cross planes of symmetry or rigid bodies, some of which
-            move with the load (``solver.assembly.contact``); with a moving plane no rigid ones.
+        contacts: surfaces that may not cross planes of symmetry, rigid bodies, some of which move
+            with the load, or each other (``solver.assembly.contact``); with a moving plane only
+            planes of symmetry and that one.
         springs: linear springs between the body and the ground; none with a moving plane.
 
     Raises:
@@ -86,7 +87,7 @@ class Problem:
     def __post_init__(self) -> None:
         self._check_kinds()
         from solver.mesh.checks import check_mesh
-        from solver.problem.contacts import check_contacts
+        from solver.problem.contacts import check_contacts, surfaces_of
         from solver.problem.loads import check_loads, loaded_surfaces
         from solver.problem.springs import check_springs, sprung_surfaces
         from solver.problem.support_checks import check_pressure, check_supports
@@ -98,7 +99,8 @@ class Problem:
         contacts = check_contacts(self.mesh, self.contacts, self.moving_plane)
         object.__setattr__(self, "contacts", contacts)
         loaded = (*loaded_surfaces(self.loads), *sprung_surfaces(springs))
-        check_mesh(self.mesh, self.pressurised, (*loaded, *(each.surface for each in contacts)))
+        touching = (name for each in contacts for name in surfaces_of(each))
+        check_mesh(self.mesh, self.pressurised, (*loaded, *touching))
         if not 0 <= self.sharp_edge_radius < np.inf:
             raise SolverError(
                 f"sharp_edge_radius = {self.sharp_edge_radius} mm must be a number of at least 0."

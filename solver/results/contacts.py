@@ -19,7 +19,7 @@ class ContactForce:
     """Force, moment, area and pressure of one contact.
 
     Attributes:
-        force: on the body, of the plane, cylinder or sphere; there is no friction.
+        force: on the body, of the plane, cylinder or sphere; on the surface, of the other one.
 
             *Shape:* (3,) in N.
         moment: about a given point.
@@ -30,7 +30,7 @@ class ContactForce:
             around it. From point to point the pressure of a stiff contact oscillates, its averages
             do not.
         gap: least signed distance of the surface, mm; in contact minus the
-            penetration.
+            penetration. Infinite where another surface is not near.
     """
 
     force: Reals

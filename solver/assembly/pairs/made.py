@@ -7,7 +7,8 @@ import numpy as np
 from solver.assembly.pairs.pair import ContactPair
 from solver.assembly.pairs.planes import PlanePair
 from solver.assembly.pairs.rounds import RoundPair
-from solver.problem.contacts import AnyContact
+from solver.assembly.pairs.surfaces import SurfacePair
+from solver.problem.contacts import AnyContact, SurfaceContact
 from solver.problem.problem import Problem
 from solver.problem.rigid_bodies import RigidCylinder, RigidSphere
 from solver.problem.unknowns import Numbering
@@ -17,6 +18,8 @@ def contact_pair(problem: Problem, contact: AnyContact, numbering: Numbering) ->
     """A contact of the problem with its triangles' quadrature and numbers of unknowns."""
     if isinstance(contact, RigidCylinder | RigidSphere):
         return RoundPair.of(problem, contact, numbering)
+    if isinstance(contact, SurfaceContact):
+        return SurfacePair.of(problem, contact, numbering)
     return PlanePair.of(problem, contact, numbering)
 
 
