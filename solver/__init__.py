@@ -25,9 +25,10 @@ if TYPE_CHECKING:
     from solver.paths.load_stepping import solve
     from solver.paths.neighbouring import Neighbouring, neighbouring
     from solver.paths.volume.control import inflate
-    from solver.problem.contacts import Contact, RigidPlane
+    from solver.problem.contacts import Contact, SurfaceContact
     from solver.problem.loads import AxialForce, BodyForce, Couple, PointForce, Traction
     from solver.problem.problem import Problem, SlenderAxis
+    from solver.problem.rigid_bodies import RigidCylinder, RigidPlane, RigidSphere
     from solver.problem.springs import FoundationSpring, NodeSpring
     from solver.problem.supports import Supports
     from solver.results.contacts import ContactForce, contact_forces
@@ -68,7 +69,9 @@ __all__ = [
     "Problem",
     "Reaction",
     "ResponseGradient",
+    "RigidCylinder",
     "RigidPlane",
+    "RigidSphere",
     "SectionDerivatives",
     "Sensitivities",
     "SlenderAxis",
@@ -76,6 +79,7 @@ __all__ = [
     "Solution",
     "SolverOptions",
     "Supports",
+    "SurfaceContact",
     "Trace",
     "Traction",
     "Work",
@@ -121,7 +125,8 @@ __getattr__ = imported_when_asked_for(
         "nonlinear.options": ("SolverOptions",),
         "paths.volume.control": ("inflate",),
         "problem.loads": ("AxialForce", "BodyForce", "Couple", "PointForce", "Traction"),
-        "problem.contacts": ("Contact", "RigidPlane"),
+        "problem.contacts": ("Contact", "SurfaceContact"),
+        "problem.rigid_bodies": ("RigidCylinder", "RigidPlane", "RigidSphere"),
         "problem.problem": ("Problem", "SlenderAxis"),
         "problem.springs": ("FoundationSpring", "NodeSpring"),
         "results.contacts": ("ContactForce", "contact_forces"),

@@ -13,11 +13,11 @@ from scipy.sparse import csr_array
 from solver.arrays import Reals
 from solver.assembly.assembly import NO_SUPPORTS, solid
 from solver.assembly.colouring import chunks
-from solver.assembly.contact import ContactPair
+from solver.assembly.pairs.made import contact_pair
+from solver.assembly.pairs.pair import PlaneUnknowns
 from solver.assembly.pressure import pressure_facets
 from solver.errors import SolverError
 from solver.kernels.assembly import Places, assemble
-from solver.kernels.contact import assemble_contact
 from solver.kernels.pressure import assemble_volume
 from solver.linear.sparsity import Pattern, upper_pattern
 from solver.problem.contacts import Contact
@@ -73,8 +73,10 @@ def _add_pressure(
 def _add_contacts(
     solution: Solution, numbering: Numbering, pattern: Pattern, values: Reals
 ) -> None:
+    apart = PlaneUnknowns(_nowhere(solution), 0.0)
+    residual = np.zeros(numbering.size)
     for contact in solution.problem.contacts:
-        pair = ContactPair.of(solution.problem, contact, numbering)
+        pair = contact_pair(solution.problem, contact, numbering)
         axis = contact.axis if isinstance(contact, Contact) else None
         if axis is None or not pair.touches(solution.state, solution.load):
             continue
@@ -83,11 +85,7 @@ def _add_contacts(
                 f"shear: the surface {contact.surface!r} touches its mirror image along x; how "
                 "the cell shears then is not known."
             )
-        assemble_contact(
-            pair.face, pair.entries(pattern), pair.plane(solution.state, solution.load),
-            _nowhere(solution), 0.0, np.ascontiguousarray(solution.displacement), True,
-            np.zeros(numbering.size), values,
-        )  # fmt: skip
+        pair.add(solution.state, solution.load, apart, residual, values, pattern)
 
 
 def _nowhere(solution: Solution) -> Reals:
