@@ -1,13 +1,15 @@
 """What a finger exerts: half of it as a body against the chain of half bubbles.
 
-    python tests/benchmarks/chain_against_half.py [--contact] [chain_against_half.json]
+    python tests/benchmarks/chain_against_half.py [half | apart | chain | table] [--design NAME]
+        [--target chain_against_half.json]
 
 Four designs at their own pressure: Prototype 1, ``finger`` and two random ones whose numbers are
-fixed; each free, under a dead force up and down at the tip, blocked by a load cell, and with
-its tip held. The body is meshed as coarsely as carries the load, as the chain's cell is. With
-``--contact`` neighbouring bubbles are kept apart; without it rows say which walls run through each
-other. All is that of the full width. Rows are written as they come; those in the file are not
-computed again. Minutes for each.
+fixed; each free, under a dead force up and down at the tip, blocked by a load cell, and with its
+tip held. ``half`` is half of the body, meshed as coarsely as carries the load, as the chain's cell
+is; ``apart`` the same without contact of neighbouring bubbles, where rows say which walls run
+through each other. ``table`` prints how far the chain is from the half. All is that of the full
+width. Rows are written as they come; those in the file are not computed again. Seconds to minutes
+for each, where walls press against each other an hour.
 
 The force at the tip is a traction that grows with height so that its resultant lies on the lower
 edge: it has no singularity, and turns a rigid tip as a force on that edge does. The load cell holds
@@ -19,8 +21,10 @@ from __future__ import annotations
 
 import argparse
 import json
+import time
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from typing import Any
 
@@ -32,6 +36,10 @@ from bellows_design.analysis.wall_contact import contact_of
 from bellows_design.design.design import Design
 from bellows_design.design.shipped import load_design
 from bellows_design.files.json_files import write_json
+from bellows_design.force.chain.finger.chain import Chain
+from bellows_design.force.chain.path import follow
+from bellows_design.force.chain.surroundings import DeadForce, Hold, Surroundings
+from bellows_design.force.law.cell_law import CellLaw, cell_law
 from bellows_design.geometry.face_names import CAVITY, ROOT, TIP
 from solver import (
     Mesh,
@@ -45,6 +53,9 @@ from solver import (
     solve,
 )
 from solver.arrays import Reals
+
+Row = dict[str, Any]
+"""What one model says of one case."""
 
 OPTIONS = SolverOptions(tolerance=1e-4, seconds=3600.0)
 
@@ -115,9 +126,9 @@ def mesh_of(design: Design) -> Mesh:
 
 def problem_of(design: Design, case: Case, contact: bool) -> Problem:
     """Half of the actuator with what acts on its tip."""
-    if contact:
-        raise SystemExit("--contact: the half model has no contact of neighbouring bubbles yet.")
     problem = HALF.problem(design, mesh_of(design))
+    if not contact:
+        problem = replace(problem, contacts=())
     if case.face:
         held = replace(problem.supports, clamped=(ROOT, TIP))
         return replace(problem, supports=held)
@@ -162,12 +173,13 @@ def _at_lower_edge(mesh: Mesh, force: float) -> Traction:
     return Traction(TIP, stress)
 
 
-def half_row(design: Design, case: Case, contact: bool) -> dict[str, Any]:
+def half_row(design: Design, case: Case, contact: bool = True) -> Row:
     """Solve for half of the finger, and read."""
     found = solve(problem_of(design, case, contact), design.load.pressure, OPTIONS)
-    walls = contact_of(design.bellows, found.problem.mesh, found.displacement)
+    problem = found.problem
+    walls = contact_of(design.bellows, problem.mesh, found.displacement, problem.contacts)
     return {
-        "elements": len(found.problem.mesh.tets),
+        "elements": len(problem.mesh.tets),
         "converged": found.converged,
         "message": found.message,
         "stable": found.stable,
@@ -178,7 +190,7 @@ def half_row(design: Design, case: Case, contact: bool) -> dict[str, Any]:
     }
 
 
-def readings(design: Design, case: Case, found: Solution) -> dict[str, Any]:
+def readings(design: Design, case: Case, found: Solution) -> Row:
     """Place and angle of the tip, volume, and what holds the tip, of the full width."""
     mesh, moved = found.problem.mesh, found.displacement
     tip = mesh.surface_nodes(TIP)
@@ -203,22 +215,99 @@ def readings(design: Design, case: Case, found: Solution) -> dict[str, Any]:
     }
 
 
+@cache
+def law_of(design: Design) -> CellLaw:
+    """The law of a design's half bubbles."""
+    return cell_law(design)
+
+
+def chain_row(design: Design, case: Case) -> Row:
+    """Follow the chain, and read."""
+    began = time.perf_counter()
+    law, length = law_of(design), design.bellows.length
+    chain = Chain.of(design.bellows, law)
+    path = follow(chain, _around(case, length), np.linspace(0, design.load.pressure, 6)[1:])
+    state = path.last
+    x, z, angle = state.tip
+    row: Row = {
+        "elements": len(law.mesh.tets),
+        "converged": path.ending is None,
+        "message": path.ending.sentence if path.ending else "",
+        "stable": state.stable,
+        "tip_x_mm": x,
+        "tip_z_mm": z,
+        "tip_angle_deg": float(np.degrees(angle)),
+        "seconds": time.perf_counter() - began,
+    }
+    names = ("force_x_n", "force_z_n", "moment_n_mm") if case.edge or case.face else ()
+    return row | dict(zip(names, state.held_force, strict=False))
+
+
+def _around(case: Case, length: float) -> Surroundings:
+    """What acts on the chain's tip."""
+    if case.face:
+        return Surroundings(hold=Hold(length, 0.0, 0.0))
+    if case.edge:
+        return Surroundings(hold=Hold(z=0.0))
+    force = DeadForce(length, (0.0, case.force))
+    return Surroundings(dead_forces=(force,) if case.force else ())
+
+
+MODELS: dict[str, Callable[[Design, Case], Row]] = {
+    "half": half_row,
+    "apart": partial(half_row, contact=False),
+    "chain": chain_row,
+}
+
+
+def table(rows: list[Row]) -> str:
+    """How far the chain is from the half, as Markdown."""
+    known = {(row["design"], row["case"], row["model"]): row for row in rows}
+    lines = ["| design | case | half | chain |", "|---|---|---|---|"]
+    for design, case, model in known:
+        if model == "half" and (design, case, "chain") in known:
+            here, there = (known[design, case, name] for name in ("half", "chain"))
+            free = [known.get((design, "free", name)) for name in ("half", "chain")]
+            each = [_said(row, at) for row, at in zip((here, there), free, strict=True)]
+            lines.append(f"| {design} | {case} | {' | '.join(each)} |")
+    return "\n".join(lines)
+
+
+def _said(row: Row, free: Row | None) -> str:
+    """What counts in a row."""
+    if not row["converged"]:
+        return str(row["message"])
+    angle = f"{row['tip_angle_deg']:.1f} deg"
+    if row["case"] == "free" or free is None:
+        return f"{angle}, ({row['tip_x_mm']:.2f}, {row['tip_z_mm']:.2f}) mm"
+    if row["case"] == "load cell":
+        return (
+            f"{row['force_z_n']:.3f} N, x {row['tip_x_mm']:.2f} mm, {row['tip_angle_deg']:.1f} deg"
+        )
+    if row["case"] == "held tip":
+        return f"{row['force_x_n']:.3f} N, {row['force_z_n']:.3f} N, {row['moment_n_mm']:.1f} N mm"
+    return f"{row['tip_z_mm'] - free['tip_z_mm']:+.3f} mm"
+
+
 def main() -> None:
     """Compute the rows that are missing, and print them."""
     parser = argparse.ArgumentParser()
-    parser.add_argument("--contact", action="store_true")
-    parser.add_argument("target", nargs="?", default="tests/benchmarks/chain_against_half.json")
+    parser.add_argument("model", choices=(*MODELS, "table"))
+    parser.add_argument("--design", default="")
+    parser.add_argument("--target", default="tests/benchmarks/chain_against_half.json")
     asked = parser.parse_args()
     path = Path(asked.target)
     rows = json.loads(path.read_text("utf-8"))["rows"] if path.is_file() else []
-    done = {(row["design"], row["case"], row["contact"]) for row in rows}
-    for design in designs():
-        for case in CASES:
-            key = {"design": design.name, "case": case.name, "contact": asked.contact}
-            if tuple(key.values()) in done:
-                continue
+    if asked.model == "table":
+        print(table(rows))
+        return
+    done = {(row["design"], row["case"]) for row in rows if row["model"] == asked.model}
+    chosen = (each for each in designs() if asked.design in ("", each.name))
+    for design, case in ((design, case) for design in chosen for case in CASES):
+        if (design.name, case.name) not in done:
+            key = {"design": design.name, "case": case.name, "model": asked.model}
             pressure = {"pressure_mpa": design.load.pressure}
-            rows.append(key | pressure | half_row(design, case, asked.contact))
+            rows.append(key | pressure | MODELS[asked.model](design, case))
             write_json({"rows": rows}, path)
             print(json.dumps(rows[-1]), flush=True)
 
