@@ -12,6 +12,7 @@ from hard_case import Finding, HardCase, refused, true
 from meshes import box_mesh
 
 from solver import (
+    AxialForce,
     BodyForce,
     Contact,
     Couple,
@@ -131,6 +132,9 @@ def loads() -> Calls:
         calls[f"couple {bad!r}"] = (
             lambda bad=bad: solve(_cell(Couple(bad))), "a couple's moment"
         )  # fmt: skip
+        calls[f"axial force {bad!r}"] = (
+            lambda bad=bad: solve(_cell(AxialForce(bad))), "an axial force"
+        )  # fmt: skip
         calls[f"penetration {bad!r}"] = (lambda bad=bad: Contact("x1", bad, 0), "penetration")
     for bad in ("0.1", None, (0.1,)):
         calls[f"solve at {bad!r}"] = (lambda bad=bad: solve(_problem(), bad), "pressure must be")
@@ -144,9 +148,9 @@ def loads() -> Calls:
     return calls
 
 
-def _cell(couple: Couple) -> Problem:
+def _cell(load: Couple | AxialForce) -> Problem:
     supports = Supports(symmetry={"x0": 0, "y0": 1})
-    return _problem(supports=supports, moving_plane="x1", pressurised=(), loads=(couple,))
+    return _problem(supports=supports, moving_plane="x1", pressurised=(), loads=(load,))
 
 
 def meshes() -> Calls:
