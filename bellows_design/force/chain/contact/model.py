@@ -1,0 +1,29 @@
+"""How stiffly fingers and objects press against each other."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from bellows_design.force.chain.contact.obstacles import Obstacle
+
+
+@dataclass(frozen=True)
+class ContactModel:
+    """Points of the finger's lower side press against objects in proportion to the penetration.
+
+    Attributes:
+        spacing: of the points along the finger, at most, mm.
+        stiffness: N/mm per mm of the finger's length.
+    """
+
+    spacing: float = 0.1
+    stiffness: float = 1000.0
+
+
+@dataclass(frozen=True)
+class Obstacles:
+    """What points may touch: rigid objects, Coulomb's coefficient of friction, and how stiffly."""
+
+    objects: tuple[Obstacle, ...]
+    friction: float
+    model: ContactModel
