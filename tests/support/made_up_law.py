@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bellows_design.force.law.points import SectionPoint
-from bellows_design.force.law.rows import Row
-from bellows_design.force.law.table import Table
+from bellows_design.force.law.interpolation.points import SectionPoint
+from bellows_design.force.law.interpolation.rows import Row
+from bellows_design.force.law.interpolation.table import Table
 
 AT_REST = 300.0
 """mm^3."""

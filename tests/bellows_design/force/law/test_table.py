@@ -9,8 +9,8 @@ import pytest
 from made_up_law import MadeUp
 
 from bellows_design.errors import BellowsError
-from bellows_design.force.law.table import Table
-from bellows_design.force.law.tabulated import TabulatedLaw
+from bellows_design.force.law.interpolation.table import Table
+from bellows_design.force.law.interpolation.tabulated import TabulatedLaw
 from bellows_design.force.section_law import SectionResponse
 
 LOADS = np.array([[-70.0, 0.5, 0.2], [-31.0, -1.0, 0.0], [-8.7, 2.0, 1.0], [12.0, 0.1, -0.3]])
