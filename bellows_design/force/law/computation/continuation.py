@@ -85,12 +85,16 @@ class Continuation:
         return found
 
     def shear_compliance(self, free: Solved) -> float:
-        """Slip by shear force of the full width, mm per N; 0 where it cannot be told."""
+        """Slip by shear force of the full width, mm per N; 0 where it cannot be told.
+
+        Where bending between the gaps makes it negative it is left out: a chain of such pieces
+        would be unstable without any load.
+        """
         from solver import shear_compliance
         from solver.errors import SolverError
 
         try:
-            return shear_compliance(free.solution) / HALVES
+            return max(0.0, shear_compliance(free.solution) / HALVES)
         except SolverError:  # inner walls touch at the bubble's middle
             return 0.0
 
