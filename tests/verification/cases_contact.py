@@ -170,7 +170,7 @@ def between_two_bodies(divisions: int) -> tuple[ContactForce, float]:
     lower, upper = in_line_contact(divisions, False), in_line_contact(divisions * 3 // 2, True)
     count = len(lower.nodes)
     surfaces = dict(lower.surfaces) | {f"u{n}": t + count for n, t in upper.surfaces.items()}
-    nodes = np.concatenate([lower.nodes, upper.nodes + [0, 0, LIFT]])
+    nodes = np.concatenate([lower.nodes, upper.nodes + np.array([0, 0, LIFT])])
     mesh = Mesh(nodes, np.concatenate([lower.tets, upper.tets + count]), surfaces)
 
     def led(positions: Points, load: float) -> Points:
@@ -226,8 +226,8 @@ CASES = (
     ),
     Case(
         "C3 Line contact",
-        "In plane strain a soft block under a rigid cylinder of 10 mm radius, and under a soft body "
-        "with such a bottom, whose meshes do not match: for the force that is found, the peak "
+        "In plane strain a soft block under a rigid cylinder of 10 mm radius, and under a soft "
+        "body with such a bottom, whose meshes do not match: for the force that is found, the peak "
         "pressure is √(F E* / π R) and the half width √(4 F R / π E*), with 1/E* the sum of "
         "(1 − ν²)/E of the bodies. The half width counts what is nearer than the penetration.",
         "Hertz's line contact (K. L. Johnson, *Contact Mechanics*, 1985, section 4.2). Status: "
