@@ -331,7 +331,7 @@ def _inner_gaps(
 
 def _least(*gaps: np.ndarray | float) -> float | None:
     """The least of some gaps, None without any."""
-    every = np.concatenate([np.atleast_1d(each) for each in gaps])
+    every = np.concatenate([np.zeros(0), *(np.atleast_1d(each) for each in gaps)])
     return float(every.min()) if every.size else None
 
 

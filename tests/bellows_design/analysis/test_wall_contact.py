@@ -244,9 +244,9 @@ def test_bubbles_that_bulge_into_each_other_push_the_actuator_further_round() ->
 CLOSE = [
     "bubble_distance=0.5", "bubble_thickness=1.2", "bubble_width=20", "bubble_height=16",
     "tendon_width=20", "tendon_height=8", "tendon_thickness=2.5", "outer_fillet=1", "length=40",
-    "number_of_bubbles=2", "chamber_length=2",
+    "number_of_bubbles=3", "chamber_length=2",
 ]  # fmt: skip
-"""Two wide bubbles that touch at 0.1 MPa."""
+"""Three wide bubbles that touch at 0.1 MPa."""
 
 
 @pytest.mark.slow
@@ -262,8 +262,8 @@ def test_a_half_of_close_bubbles_keeps_them_apart() -> None:
     assert held.converged and found.modelled and not found.void and found.note == ""
     assert found.where == (NEIGHBOURS,) and found.min_gap_mm is not None
     assert -0.02 * design.bellows.bubble_thickness < found.min_gap_mm < 0
-    (pushed,) = (each.force for each in contact_forces(held)[1:])
-    assert pushed[0] < -0.1  # the front of the first bubble, towards the root
+    pushed = [each.force[0] for each in contact_forces(held)[1:]]  # fronts, towards the root
+    assert min(pushed) < 0 and max(pushed) <= 0
 
 
 def test_walls_of_bubbles_are_their_outsides_and_share_no_node(problem: Problem) -> None:
