@@ -242,7 +242,7 @@ def _contact(computation: Computation) -> WallContact:
     if computation.model is UNIT_CELL:
         return contact_in_cell(bellows, solution)
     problem = solution.problem
-    return contact_of(bellows, problem.mesh, solution.displacement, problem.contacts)
+    return contact_of(bellows, problem.mesh, solution.displacement, problem)
 
 
 def _mesh_readings(computation: Computation) -> tuple[MeshReading, ...]:

@@ -8,8 +8,8 @@ there a solve stops at the first touch, by ``touch_guard``.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -25,7 +25,6 @@ if TYPE_CHECKING:
     from solver import Problem, Solution
     from solver.assembly.state import State
     from solver.nonlinear.events import Guard
-    from solver.problem.contacts import AnyContact
 
 NEIGHBOURS, OUTER, INSIDE = "neighbouring bubbles", "outer walls", "inner walls"
 ITSELF = "distant parts"
@@ -83,7 +82,7 @@ def touch_guard(bellows: BellowsParameters, problem: Problem) -> Guard:
             touching = _unmodelled_in_cell(bellows, outside, inside)
         else:
             touching = _unmodelled(
-                *_found_in_actuator(bellows, problem.mesh, state.displacement, problem.contacts)
+                *_found_in_actuator(bellows, problem.mesh, state.displacement, problem)
             )
         if not touching:
             return ""
@@ -96,13 +95,14 @@ def contact_of(
     bellows: BellowsParameters,
     mesh: Mesh,
     displacement: np.ndarray,
-    contacts: Sequence[AnyContact] = (),
+    problem: Problem | None = None,
 ) -> WallContact:
     """Contact in an actuator, full or half, after ``displacement`` (n, 3), mm.
 
-    ``contacts``: those of its problem, by which walls are kept apart.
+    ``problem``: on that mesh, by whose contacts walls are kept apart; None if none are.
     """
-    outer, inner = _found_in_actuator(bellows, mesh, displacement, contacts)
+    outer, inner = _found_in_actuator(bellows, mesh, displacement, problem)
+    contacts = problem is not None and bool(problem.contacts)
     missed = _unmodelled(outer, inner)
     inside = (INSIDE,) if _touches(inner.narrowest) else ()
     touching = (*outer.touching, *inside)
@@ -112,7 +112,7 @@ def contact_of(
         overlaps_itself=outer.overlap,
         inner_gap_mm=inner.narrowest,
         where=_with_overlap(touching, outer.overlap),
-        modelled=bool(contacts) and not missed,
+        modelled=contacts and not missed,
         note="" if not missed else PARTLY if contacts else UNMODELLED,
     )
 
@@ -120,7 +120,7 @@ def contact_of(
 def stopped_inside(bellows: BellowsParameters, ends: Solution) -> bool:
     """Whether in an actuator inner walls that nothing keeps apart are nearest to each other."""
     problem = ends.problem
-    outer, inner = _found_in_actuator(bellows, problem.mesh, ends.displacement, problem.contacts)
+    outer, inner = _found_in_actuator(bellows, problem.mesh, ends.displacement, problem)
     gap = inner.unkept
     return gap is not None and (outer.narrowest is None or gap <= outer.narrowest)
 
@@ -210,16 +210,36 @@ def _with_overlap(touching: tuple[str, ...], overlap: bool) -> tuple[str, ...]:
 
 @dataclass(frozen=True)
 class OuterGaps:
-    """``narrowest`` air between outer walls, mm; names of those ``touching``.
+    """Air between outer walls.
 
-    ``kept``: those of them that contact keeps apart. ``overlap``: distant parts run through each
-    other.
+    ``gaps``: which walls -> the narrowest, mm, None where nothing faces. ``overlap``: distant parts
+    run through each other. ``kept``: those walls that contact keeps apart.
     """
 
-    narrowest: float | None
-    touching: tuple[str, ...]
+    gaps: Mapping[str, float | None]
     overlap: bool
     kept: tuple[str, ...] = ()
+
+    @property
+    def narrowest(self) -> float | None:
+        """The narrowest of all, mm."""
+        return _least(*(gap for gap in self.gaps.values() if gap is not None))
+
+    @property
+    def touching(self) -> tuple[str, ...]:
+        """Which walls touch."""
+        return tuple(name for name, gap in self.gaps.items() if _touches(gap))
+
+    def keeping(self, gap: float, deepest: float) -> OuterGaps:
+        """The same where contact of neighbours has this narrowest gap, and lets them so deep.
+
+        Facets are flat, and contact is not: they may just miss each other where it presses.
+        """
+        facets = self.gaps[NEIGHBOURS]
+        if facets is not None and facets < -deepest:
+            return self
+        least = gap if gap < 0 and (facets is None or gap < facets) else facets
+        return replace(self, gaps={**self.gaps, NEIGHBOURS: least}, kept=(NEIGHBOURS,))
 
 
 @dataclass(frozen=True)
@@ -233,21 +253,41 @@ class InnerGaps:
 
 
 def _found_in_actuator(
-    bellows: BellowsParameters,
-    mesh: Mesh,
-    displacement: np.ndarray,
-    contacts: Sequence[AnyContact],
+    bellows: BellowsParameters, mesh: Mesh, displacement: np.ndarray, problem: Problem | None
 ) -> tuple[OuterGaps, InnerGaps]:
     """Gaps outside and inside of an actuator, full or half."""
-    from solver import Contact, SurfaceContact
+    outer = _outer_gaps(bellows, mesh, displacement)
+    within, across = _inner_gaps(bellows, mesh, displacement)
+    every = _least(within, across)
+    if problem is None:
+        return outer, InnerGaps(every, every)
+    neighbours, images = _kept_apart(problem, displacement)
+    if neighbours is not None:
+        outer = outer.keeping(*neighbours)
+    if images is None:
+        return outer, InnerGaps(every, every)
+    pressed = (images,) if images < 0 else ()  # else facets tell, of facing walls only
+    return outer, InnerGaps(_least(within, across, *pressed), _least(within))
 
-    neighbours = [each for each in contacts if isinstance(each, SurfaceContact)]
-    across = any(isinstance(each, Contact) and each.surface == CAVITY for each in contacts)
-    deepest = max((DEEPEST * each.penetration for each in neighbours), default=None)
-    return (
-        _outer_gaps(bellows, mesh, displacement, deepest),
-        _inner_gaps(bellows, mesh, displacement, across),
-    )
+
+def _kept_apart(
+    problem: Problem, displacement: np.ndarray
+) -> tuple[tuple[float, float] | None, float | None]:
+    """What contacts say of neighbouring bubbles, and of inner walls across y = 0.
+
+    Of the former the narrowest gap, and how deep contact may let them, mm; of the latter twice the
+    least distance from the plane. None where the problem has no such contact.
+    """
+    from solver import Contact, SurfaceContact
+    from solver.assembly.contact import lowest_gaps
+
+    gaps = lowest_gaps(problem, displacement, np.zeros(2))
+    found = list(zip(problem.contacts, gaps, strict=True))
+    neighbours = [(c, gap) for c, gap in found if isinstance(c, SurfaceContact)]
+    across = [gap for c, gap in found if isinstance(c, Contact) and c.surface == CAVITY]
+    deepest = max((DEEPEST * c.penetration for c, _ in neighbours), default=0.0)
+    between = (min(gap for _, gap in neighbours), deepest) if neighbours else None
+    return between, 2 * min(across) if across else None
 
 
 def _unmodelled(outer: OuterGaps, inner: InnerGaps) -> tuple[str, ...]:
@@ -261,56 +301,38 @@ DEEPEST = 20.0
 facets of curved walls seem to be in each other by less."""
 
 
-def _outer_gaps(
-    bellows: BellowsParameters,
-    mesh: Mesh,
-    displacement: np.ndarray,
-    deepest: float | None = None,
-) -> OuterGaps:
-    """Air outside: between neighbouring bubbles, and of one bubble to root, tendon and tip.
-
-    ``deepest``: how far contact may let neighbours into each other, mm; None without contact.
-    """
+def _outer_gaps(bellows: BellowsParameters, mesh: Mesh, displacement: np.ndarray) -> OuterGaps:
+    """Air outside: between neighbouring bubbles, and of one bubble to root, tendon and tip."""
     gaps = facing_gaps(mesh, displacement, *_closed(mesh))
     apart = _bubbles_apart(bellows, gaps)
     walls = on_bubble(bellows, gaps.starts[:, 0]) & on_bubble(bellows, gaps.ends[:, 0])
     notch = _in_notch(bellows, gaps)
-    near = gaps.distances[(apart <= 1) & ~notch]
     pairs = {NEIGHBOURS: (apart == 1) & walls, OUTER: (apart == 0) | ((apart == 1) & ~walls)}
-    least = {
-        name: float(gaps.distances[those & ~notch].min(initial=np.inf))
-        for name, those in pairs.items()
-    }
-    keeps = deepest is not None and least[NEIGHBOURS] >= -deepest
     return OuterGaps(
-        narrowest=float(near.min()) if near.size else None,
-        touching=tuple(name for name, gap in least.items() if gap <= 0),
+        gaps={name: _least(gaps.distances[those & ~notch]) for name, those in pairs.items()},
         overlap=bool((gaps.distances[apart > 1] < 0).any()),
-        kept=(NEIGHBOURS,) if keeps else (),
     )
 
 
 def _inner_gaps(
-    bellows: BellowsParameters, mesh: Mesh, displacement: np.ndarray, across: bool
-) -> InnerGaps:
-    """Narrowest air between walls inside; ``across``: contact keeps those apart that meet at y = 0.
+    bellows: BellowsParameters, mesh: Mesh, displacement: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Air (k,) between walls inside, mm, and between those and their images behind y = 0.
 
     Distant parts that run through each other past a full turn do not count.
     """
     if CAVITY not in mesh.surfaces:
-        return InnerGaps(None, None)
+        return np.zeros(0), np.zeros(0)
     seen = facing_gaps(mesh, displacement, CAVITY, *_closed(mesh), seen_from=(CAVITY,))
-    gaps = seen.distances[_bubbles_apart(bellows, seen) <= 1]
-    images = np.zeros(0)
-    if SYMMETRY in mesh.surfaces:
-        images = _gaps_across(mesh, displacement)
-    every = np.append(gaps, images)
-    return InnerGaps(_least(every), _least(gaps if across else every))
+    within = seen.distances[_bubbles_apart(bellows, seen) <= 1]
+    mirrored = SYMMETRY in mesh.surfaces
+    return within, _gaps_across(mesh, displacement) if mirrored else np.zeros(0)
 
 
-def _least(gaps: np.ndarray) -> float | None:
+def _least(*gaps: np.ndarray | float) -> float | None:
     """The least of some gaps, None without any."""
-    return float(gaps.min()) if gaps.size else None
+    every = np.concatenate([np.zeros(0), *(np.atleast_1d(each) for each in gaps)])
+    return float(every.min()) if every.size else None
 
 
 def _gaps_across(mesh: Mesh, displacement: np.ndarray) -> np.ndarray:

@@ -46,9 +46,9 @@ def _walls(mesh: Mesh, bellows: BellowsParameters) -> Mapping[str, NDArray[np.in
     triangles = mesh.triangles(OUTSIDE)
     corners = mesh.nodes[triangles[:, :3], 0]
     bubble = nearest_bubble(bellows, corners.mean(axis=1))
-    on = on_bubble(bellows, corners[:, 0]) & on_bubble(bellows, corners[:, 1])
-    on &= on_bubble(bellows, corners[:, 2])
-    before = corners.mean(axis=1) < np.array(bellows.bubble_middles)[bubble]
+    middles = np.array(bellows.bubble_middles)[bubble]
+    on = (np.abs(corners - middles[:, None]) <= bellows.bubble_length / 2 + WIDER).all(axis=1)
+    before = corners.mean(axis=1) < middles
     return {
         wall_name(number + 1, side): triangles[on & (bubble == number) & sides]
         for number in range(bellows.bubble_count)

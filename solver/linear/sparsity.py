@@ -100,11 +100,19 @@ def widened(pattern: Pattern, dofs: Integers) -> tuple[Pattern, Integers]:
     upper = np.triu_indices(dofs.shape[1])
     one, other = (dofs[:, index].astype(np.int64).ravel() for index in upper)
     first, last = np.minimum(one, other), np.maximum(one, other)
-    keys = np.union1d(old, (first * size + last)[first >= 0])
-    counts = np.bincount(keys // size, minlength=size)
+    keys = np.unique((first * size + last)[first >= 0])
+    before = np.searchsorted(old, keys)  # both are sorted: a merge needs no other sorting
+    known = before < len(old)
+    known[known] = old[before[known]] == keys[known]
+    keys, before = keys[~known], before[~known]
+    shift = np.cumsum(np.bincount(before, minlength=len(old) + 1)[:-1])
+    places = np.arange(len(old)) + shift
+    merged = np.empty(len(old) + len(keys), np.int64)
+    merged[places] = old
+    merged[before + np.arange(len(keys))] = keys
+    counts = np.bincount(keys // size, minlength=size) + np.diff(pattern.indptr)
     indptr = np.concatenate([[0], np.cumsum(counts)]).astype(np.int32)
-    places = np.searchsorted(keys, old).astype(np.int32)
-    return Pattern(indptr, (keys % size).astype(np.int32)), places
+    return Pattern(indptr, (merged % size).astype(np.int32)), places.astype(np.int32)
 
 
 def incidence(table: Integers, size: int) -> tuple[Integers, Integers]:

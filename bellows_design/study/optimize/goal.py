@@ -47,8 +47,7 @@ class Goal:
         least_angle_deg: Required angle; needed unless the angle is maximised.
         most_strain: Limit of the largest principal strain, for fatigue; None without one.
         least_gap_mm: Air that neighbouring bubbles keep between them under pressure; None where
-            they may touch. The half actuator, by which the best is verified, does not keep walls
-            apart.
+            they may touch.
 
     Raises:
         DesignError: A number is out of its bounds, or an angle is missing.

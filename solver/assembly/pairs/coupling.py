@@ -1,8 +1,8 @@
 """Which triangles of two surfaces in contact the tangent's pattern couples.
 
 Analysing a pattern costs as much as some factorizations. So the set of pairs only grows, and when
-one is new, pairs of triangles around it are added too: it then grows rarely. What a solve has
-touched before thus decides the order of elimination, and the last digits.
+one is new, pairs of triangles two rings around it are added too: it then grows rarely. What a solve
+has touched before thus decides the order of elimination, and the last digits.
 """
 
 from __future__ import annotations
@@ -36,7 +36,9 @@ class Coupling:
         grown = False
         for number, pair, pairs in touching:
             if not np.isin(pairs, self._known[number]).all():
-                self._known[number] = np.union1d(self._known[number], pair.around(pairs))
+                self._known[number] = np.union1d(
+                    self._known[number], pair.around(pair.around(pairs))
+                )
                 grown = True
         if grown or self._widened is None:
             cells = [pair.pair_dofs(self._known[number]) for number, pair, _ in touching]

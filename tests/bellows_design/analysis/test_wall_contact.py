@@ -33,7 +33,8 @@ from bellows_design.design.bellows_parameters import BellowsParameters
 from bellows_design.design.design import Design
 from bellows_design.design.overrides import with_overrides
 from bellows_design.design.shipped import load_design
-from solver import Problem, Solution, SolverOptions, solve
+from bellows_design.geometry.bubble_walls import BACK, FRONT, facing_walls, wall_name
+from solver import Problem, Solution, SolverOptions, contact_forces, solve
 
 Array = NDArray[np.float64]
 BELLOWS = BellowsParameters.model_validate(
@@ -240,12 +241,54 @@ def test_bubbles_that_bulge_into_each_other_push_the_actuator_further_round() ->
     assert held.path[-1].rotation > 1.1 * bare.path[-1].rotation
 
 
+CLOSE = [
+    "bubble_distance=0.5", "bubble_thickness=1.2", "bubble_width=20", "bubble_height=16",
+    "tendon_width=20", "tendon_height=8", "tendon_thickness=2.5", "outer_fillet=1", "length=40",
+    "number_of_bubbles=3", "chamber_length=2",
+]  # fmt: skip
+"""Three wide bubbles that touch at 0.1 MPa."""
+
+
 @pytest.mark.slow
-def test_a_half_of_crowded_bubbles_says_that_it_does_not_hold() -> None:
-    design = with_overrides(load_design("prototype_1"), [*CROWDED, "number_of_bubbles=2"])
-    half = HALF.problem(design, first_plan(HALF.solid(design), design).made())
-    found = contact_of(design.bellows, half.mesh, solve(half, 0.03).displacement)
-    assert found.detected and not found.modelled and found.note == UNMODELLED
+def test_a_half_of_close_bubbles_keeps_them_apart() -> None:
+    design = with_overrides(load_design("prototype_1"), CLOSE)
+    problem = HALF.problem(design, first_plan(HALF.solid(design), design).made())
+    bare = replace(problem, contacts=())
+    held, free = (solve(each, 0.1, SolverOptions(tolerance=1e-4)) for each in (problem, bare))
+    through = contact_of(design.bellows, problem.mesh, free.displacement, bare)
+    assert through.void and through.note == UNMODELLED and through.min_gap_mm is not None
+    assert through.min_gap_mm < -0.05
+    found = contact_of(design.bellows, problem.mesh, held.displacement, problem)
+    assert held.converged and found.modelled and not found.void and found.note == ""
+    assert found.where == (NEIGHBOURS,) and found.min_gap_mm is not None
+    assert -0.02 * design.bellows.bubble_thickness < found.min_gap_mm < 0
+    pushed = [each.force[0] for each in contact_forces(held)[1:]]  # fronts, towards the root
+    assert min(pushed) < 0 and max(pushed) <= 0
+
+
+def test_walls_of_bubbles_are_their_outsides_and_share_no_node(problem: Problem) -> None:
+    mesh, count = problem.mesh, BELLOWS.bubble_count
+    names = [wall_name(bubble, side) for bubble in range(1, count + 1) for side in (BACK, FRONT)]
+    walls = [mesh.surface_nodes(name) for name in names]
+    for name, nodes in zip(names, walls, strict=True):
+        middle = BELLOWS.bubble_middles[int(name.split("_")[1]) - 1]
+        offset = mesh.nodes[nodes, 0] - middle
+        assert abs(offset).max() == pytest.approx(BELLOWS.bubble_length / 2, abs=1e-6)
+    for (front, back), gap in zip(facing_walls(BELLOWS), range(count - 1), strict=True):
+        one, other = mesh.surface_nodes(front), mesh.surface_nodes(back)
+        assert not len(np.intersect1d(one, other))
+        apart = mesh.nodes[other, 0].min() - mesh.nodes[one, 0].max()
+        assert apart == pytest.approx(GAP, abs=1e-6), gap
+
+
+def test_neighbours_deep_in_each_other_are_not_kept_apart_whatever_the_model_says(
+    problem: Problem,
+) -> None:
+    through = compressed(problem, 2)
+    found = contact_of(BELLOWS, problem.mesh, through, problem)
+    assert NEIGHBOURS in found.where and found.void and not found.modelled
+    apart = contact_of(BELLOWS, problem.mesh, compressed(problem, 0), problem)
+    assert (apart.where, apart.modelled, apart.note) == ((), True, "")
 
 
 @pytest.mark.slow

@@ -21,8 +21,10 @@ from solver import (
     SolverOptions,
     Supports,
     SurfaceContact,
+    constant_changes,
     contact_forces,
     reaction,
+    sensitivities,
     solve,
 )
 from solver.assembly.assembly import Assembly
@@ -226,6 +228,29 @@ def test_blocks_in_contact_are_stable_and_a_lifted_one_leaves_nothing_behind() -
     assert contact_forces(after)[0].force == pytest.approx(np.zeros(3))
     lower = np.unique(after.problem.mesh.surfaces["lower z1"])
     assert after.displacement[lower] == pytest.approx(np.zeros((len(lower), 3)), abs=1e-7)
+
+
+def test_derivatives_by_the_shape_are_those_of_problems_solved_anew() -> None:
+    """The response is the volume under the pressed face of the upper block."""
+    tight = SolverOptions(tolerance=1e-11, maximum_iterations=30)
+    mesh = both(bumpy((2, 2, 1), 1), raised(bumpy((3, 2, 1), 2), (0.1, -0.05, 1.06)))
+    velocity = mesh.nodes * [0.1, 0.05, 0.1] * mesh.nodes[:, 2:]
+    supports = Supports(("lower z0", "upper x1"))
+    contact = SurfaceContact("upper z0", "lower z1", 0.05, reach=0.5)
+
+    def solved(step: float) -> Solution:
+        moved = mesh.moved(mesh.nodes + step * velocity)
+        problem = Problem(moved, RUBBER, supports, ("upper z1",), contacts=(contact,))
+        found = solve(problem, 0.3, tight)
+        assert found.converged and found.negative_pivots in (None, len(mesh.vertices))
+        return found
+
+    start = solved(0.0)
+    assert contact_forces(start)[0].force[2] > 0.02
+    found = sensitivities(start, {"shape": velocity}, constant_changes(RUBBER))
+    step = 1e-4
+    numerical = (solved(step).path[-1].volume - solved(-step).path[-1].volume) / (2 * step)
+    assert found.derivatives["volume"]["shape"] == pytest.approx(numerical, rel=1e-4)
 
 
 @pytest.mark.parametrize(

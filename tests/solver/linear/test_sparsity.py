@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from solver.arrays import Integers
-from solver.linear.sparsity import upper_pattern
+from solver.linear.sparsity import upper_pattern, widened
 
 NODES, CELLS, WIDTH = 40, 60, 5
 
@@ -50,3 +50,19 @@ def test_columns_of_every_row_ascend() -> None:
     ends = pattern.indptr[1:-1] - 1
     within[ends[(ends >= 0) & (ends < len(steps))]] = False
     assert (steps[within] > 0).all()
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_widened_pattern_is_that_of_all_cells_and_keeps_what_was_there(seed: int) -> None:
+    random = np.random.default_rng(seed)
+    dofs, size = cells(random)
+    more = random.integers(-1, size, (7, 9)).astype(np.int32)
+    narrow = upper_pattern(dofs, size)
+    wide, places = widened(narrow, more)
+    rows = np.full((CELLS + 7, dofs.shape[1]), -1, np.int32)
+    rows[:CELLS], rows[CELLS:, :9] = dofs, more
+    whole = upper_pattern(rows, size)
+    assert np.array_equal(wide.indptr, whole.indptr)
+    assert np.array_equal(wide.indices, whole.indices)
+    assert np.array_equal(wide.indices[places], narrow.indices)
+    assert np.array_equal(widened(wide, more)[1], np.arange(len(wide.indices)))
