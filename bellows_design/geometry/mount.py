@@ -30,9 +30,9 @@ def _slab(mount: Mount, bellows: BellowsParameters, port: Port) -> cq.Solid:
     half, length, height = mount.width(bellows, port) / 2, mount.length(port), mount.height(port)
     if mount.kind == "foot":
         flat = [(0.0, half), (-length, half), (-length, -half), (0.0, -half)]
-        return _extruded([(x, y, 0.0) for x, y in flat], 4, mount.fillet, (0.0, 0.0, height))
+        return _extruded([(x, y, 0.0) for x, y in flat], 4, mount.corner_radius, (0.0, 0.0, height))
     upright = [(-half, height), (half, height), (half, 0.0), (-half, 0.0)]
-    return _extruded([(0.0, y, z) for y, z in upright], 2, mount.fillet, (-length, 0.0, 0.0))
+    return _extruded([(0.0, y, z) for y, z in upright], 2, mount.corner_radius, (-length, 0.0, 0.0))
 
 
 def _extruded(corners: Sequence[Point], rounded: int, radius: float, along: Point) -> cq.Solid:

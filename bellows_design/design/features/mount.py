@@ -8,7 +8,12 @@ from typing import Literal, Self
 from pydantic import Field, model_validator
 
 from bellows_design.design.bellows_parameters import BellowsParameters
-from bellows_design.design.lengths import Millimetres, length_field
+from bellows_design.design.lengths import (
+    FULL_ROUND_SNAP,
+    Millimetres,
+    length_field,
+    snapped_radius,
+)
 from bellows_design.design.port import Port
 from bellows_design.validation.parameters import Parameters, require
 
@@ -37,6 +42,11 @@ class Mount(Parameters):
 
     @model_validator(mode="after")
     def _rounds_its_corners(self) -> Self:
+        require(
+            self.fillet == 0 or self.fillet >= FULL_ROUND_SNAP,
+            f"mount.fillet = {self.fillet:g} mm is no radius a printer resolves; it must be 0 or "
+            f"at least {FULL_ROUND_SNAP:g} mm",
+        )
         most = self.border
         require(
             self.fillet <= most + 1e-9,
@@ -62,6 +72,11 @@ class Mount(Parameters):
     def border(self) -> float:
         """Distance of the outer holes' middles from the plate's edges, mm."""
         return self.edge_distance + self.hole_diameter / 2
+
+    @property
+    def corner_radius(self) -> float:
+        """Radius built on the plate's corners, mm: the fillet, snapped to that distance."""
+        return snapped_radius(self.fillet, self.border)
 
     def length(self, port: Port) -> float:
         """Extent along x, mm: of a foot as long as the boss, or as two holes in a row need."""
@@ -92,7 +107,7 @@ class Mount(Parameters):
     def volume(self, bellows: BellowsParameters, port: Port) -> float:
         """What the plate adds to the part beside the boss, mm³."""
         foot = self.kind == "foot"
-        corners = (4 if foot else 2) * (1 - math.pi / 4) * self.fillet**2
+        corners = (4 if foot else 2) * (1 - math.pi / 4) * self.corner_radius**2
         holes = self.holes * math.pi / 4 * self.hole_diameter**2
         if not foot:
             face = self.width(bellows, port) * self.height(port) - corners - holes
