@@ -33,6 +33,7 @@ from bellows_design.geometry.face_names import (
 from bellows_design.geometry.fingertip import fingertip_pad
 from bellows_design.geometry.mount import mount_plate
 from bellows_design.geometry.named_solids import (
+    BEYOND,
     GeometryError,
     NamedSolid,
     box,
@@ -45,9 +46,6 @@ from bellows_design.geometry.named_solids import (
 
 LOOSEST = 0.02
 """mm. A solid whose faces meet less exactly has no mesh that keeps the tolerance of an STL."""
-
-BEYOND = 1.0
-"""mm. How far a cutting solid reaches past what it cuts."""
 
 
 def printed_part(

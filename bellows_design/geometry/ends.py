@@ -19,12 +19,14 @@ class TipStub:
     Attributes:
         length: from there to the finger's end, its pad included, mm. Negative, by half a gap at
             most, where the last bubble ends the finger.
+        height: of its end's face, mm: the fingertip's thickness, or the tendon's height.
         lower_edge: x from there and z of the end's lower edge, which grips, mm.
         volume: of its material, mm³.
         centroid: x from there and z of its centre of volume, mm.
     """
 
     length: float
+    height: float
     lower_edge: tuple[float, float]
     volume: float
     centroid: tuple[float, float]
@@ -53,13 +55,12 @@ def tip_length(design: Design) -> float:
 
 def tip_stub(design: Design) -> TipStub:
     """The stub at the tip: solid tendon, and the pad."""
-    length, parts = tip_length(design), list(_parts(design))
+    length, pad, parts = tip_length(design), design.fingertip, list(_parts(design))
+    height = design.bellows.tendon_height if pad is None else pad.thickness
     volume = sum(part for part, _, _ in parts)
-    if volume == 0:
-        return TipStub(length, (length, 0.0), 0.0, (0.0, 0.0))
-    x = sum(part * along for part, along, _ in parts) / volume
-    z = sum(part * above for part, _, above in parts) / volume
-    return TipStub(length, (length, 0.0), volume, (x, z))
+    x = sum(part * along for part, along, _ in parts) / volume if volume else 0.0
+    z = sum(part * above for part, _, above in parts) / volume if volume else 0.0
+    return TipStub(length, height, (length, 0.0), volume, (x, z))
 
 
 def _parts(design: Design) -> Iterator[tuple[float, float, float]]:

@@ -7,10 +7,7 @@ import cadquery as cq
 from bellows_design.design.bellows_parameters import BellowsParameters
 from bellows_design.design.features.fingertip import Fingertip
 from bellows_design.geometry.face_names import OUTSIDE, TIP
-from bellows_design.geometry.named_solids import NamedSolid, box, cut, named
-
-BEYOND = 1.0
-"""mm. How far a cutting solid reaches past what it cuts."""
+from bellows_design.geometry.named_solids import BEYOND, NamedSolid, box, cut, named
 
 
 def fingertip_pad(fingertip: Fingertip, bellows: BellowsParameters) -> NamedSolid:

@@ -10,10 +10,7 @@ from bellows_design.design.bellows_parameters import BellowsParameters
 from bellows_design.design.features.mount import Mount
 from bellows_design.design.port import Port
 from bellows_design.geometry.face_names import MOUNT
-from bellows_design.geometry.named_solids import NamedSolid, Point, box, cut, named
-
-BEYOND = 1.0
-"""mm. How far a cutting solid reaches past what it cuts."""
+from bellows_design.geometry.named_solids import BEYOND, NamedSolid, Point, box, cut, named
 
 
 def mount_plate(mount: Mount, bellows: BellowsParameters, port: Port) -> NamedSolid:

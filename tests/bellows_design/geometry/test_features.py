@@ -221,7 +221,8 @@ def test_the_stub_at_the_tip_is_what_lies_beyond_the_last_gap() -> None:
     assert stub.volume == pytest.approx(beyond.Volume(), rel=1e-6)
     centre = beyond.Center()
     assert stub.centroid == pytest.approx((centre.x - gap, centre.z), abs=1e-6)
-    assert stub.lower_edge == (stub.length, 0.0)
+    assert (stub.height, stub.lower_edge) == (3, (stub.length, 0.0))
+    assert tip_stub(SHORT).height == SHORT.bellows.tendon_height
 
 
 def test_root_pieces_and_tip_make_up_the_finger() -> None:
