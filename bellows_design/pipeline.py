@@ -179,14 +179,14 @@ def build_part(design: Design) -> Part:
     """The printed part of ``design``.
 
     Args:
-        design: Twelve numbers, port and, if there is one, indent, mm.
+        design: Twelve numbers, port and, where it has them, indent, mount and fingertip, mm.
 
     Returns:
         The solid as printed and its watertight triangle mesh, mm, with the labels of the design and
         the profile of its printer.
 
     Raises:
-        DesignError: Indent or port do not fit the bellows.
+        DesignError: Indent, port, mount or fingertip do not fit the bellows.
         GeometryError: The CAD kernel cannot build the solid.
         TessellationError: The solid's triangles do not close.
         PrintersError: The design's printer is unknown.
@@ -195,7 +195,9 @@ def build_part(design: Design) -> Part:
     from bellows_design.geometry.tessellation import tessellate
 
     profile = design.profile()
-    solid = printed_part(design.bellows, design.indent, design.port).solid
+    solid = printed_part(
+        design.bellows, design.indent, design.port, design.mount, design.fingertip
+    ).solid
     mesh = tessellate(solid)
     return Part(design.name, design.description, design.digest, solid, mesh, profile)
 

@@ -38,7 +38,9 @@ def bellows(design: Design) -> Callable[[cq.Workplane], cq.Workplane]:
 
     Raises ``GeometryError`` if the CAD kernel cannot build the part.
     """
-    solid = printed_part(design.bellows, design.indent, design.port).solid
+    solid = printed_part(
+        design.bellows, design.indent, design.port, design.mount, design.fingertip
+    ).solid
 
     def placed(workplane: cq.Workplane) -> cq.Workplane:
         return workplane.eachpoint(solid, useLocalCoordinates=True, clean=False)

@@ -16,7 +16,10 @@ from printers import (
 
 
 def printed_model(design: Design, mesh: ClosedMesh) -> PrintedModel:
-    """The design's mesh with its declared walls, gaps and opening, mm."""
+    """The design's mesh with its declared walls, gaps and opening, mm.
+
+    A mount lies before the finger and keeps the printer's bounds only, not the cross-section's.
+    """
     limits, bellows = design.limits, design.bellows
     gaps = (DeclaredGap("bubble_distance", bellows.bubble_distance),)
     return PrintedModel(
@@ -26,6 +29,7 @@ def printed_model(design: Design, mesh: ClosedMesh) -> PrintedModel:
         gaps=gaps if bellows.bubble_count > 1 else (),
         openings=(port_opening(design),),
         cross_section_limit=(limits.cross_section_width, limits.cross_section_height),
+        cross_section_start=None if design.mount is None else 0.0,
     )
 
 

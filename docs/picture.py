@@ -23,7 +23,8 @@ from solver import nodal_von_mises
 def part_surfaces(name: str) -> tuple[pv.PolyData, pv.PolyData]:
     """The printed part, whole and cut open at its plane of symmetry, as surfaces, mm."""
     design = load_design(name)
-    whole = printed_part(design.bellows, design.indent, design.port).solid
+    features = design.mount, design.fingertip
+    whole = printed_part(design.bellows, design.indent, design.port, *features).solid
     front = cq.Solid.makeBox(1000, 1000, 1000, cq.Vector(-500, -1000, -500))
     opened = whole.cut(front).Solids()[0]
     meshes = (tessellate(whole), tessellate(opened))

@@ -125,6 +125,7 @@ class PrintedModel:
         gaps: Widths of air the part must have outside.
         openings: Every hole that is meant to lead into the cavity.
         cross_section_limit: Largest allowed extent in (y, z), mm.
+        cross_section_start: x beyond which that limit counts, mm; None where it counts everywhere.
 
     Raises:
         PrintersError: The arrays are malformed, or the part is smaller than 1 mm or larger than
@@ -137,6 +138,7 @@ class PrintedModel:
     gaps: tuple[DeclaredGap, ...] = ()
     openings: tuple[Opening, ...] = ()
     cross_section_limit: tuple[float, float] | None = None
+    cross_section_start: float | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "vertices", _read_only(self.vertices, np.float64))

@@ -11,7 +11,6 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from bellows_design.analysis.model_names import ModelName
-from bellows_design.design.bellows_parameters import BellowsParameters
 from bellows_design.design.design import Design
 from bellows_design.design.lengths import SMALLEST_FEATURE
 from bellows_design.errors import DesignError
@@ -65,13 +64,13 @@ def _cell_solid(design: Design) -> NamedSolid:
 def _half_solid(design: Design) -> NamedSolid:
     from bellows_design.geometry.actuator import half_body
 
-    return half_body(design.bellows, design.indent)
+    return half_body(design.bellows, design.indent, design.fingertip)
 
 
 def _full_solid(design: Design) -> NamedSolid:
     from bellows_design.geometry.actuator import full_body
 
-    return full_body(design.bellows, design.indent)
+    return full_body(design.bellows, design.indent, design.fingertip)
 
 
 def _cell_problem(design: Design, mesh: Mesh) -> Problem:
@@ -161,7 +160,7 @@ def _actuator(
         material=design.material.hyperelastic(),
         supports=Supports(clamped=(ROOT,), symmetry=symmetry),
         pressurised=(CAVITY,),
-        axis=_axis(design.bellows),
+        axis=_axis(design),
         sharp_edge_radius=sharp_edge_radius(design),
         contacts=(*contacts, *neighbour_contacts(design)),
     )
@@ -228,10 +227,12 @@ def sharp_edge_radius(design: Design) -> float:
     return min(SMALLEST_FEATURE, thinnest_wall(design) / 4)
 
 
-def _axis(bellows: BellowsParameters) -> SlenderAxis:
-    """Stations at the root, at every bubble's and every gap's middle, and at the tip."""
+def _axis(design: Design) -> SlenderAxis:
+    """Stations at the root, at every bubble's and every gap's middle, and at the finger's end."""
+    from bellows_design.geometry.ends import finger_length
     from solver import SlenderAxis
 
+    bellows = design.bellows
     middles = bellows.bubble_middles
     gaps = (middle + bellows.pitch / 2 for middle in middles[:-1])
-    return SlenderAxis(tuple(sorted((0.0, *middles, *gaps, bellows.length))))
+    return SlenderAxis(tuple(sorted((0.0, *middles, *gaps, finger_length(design)))))

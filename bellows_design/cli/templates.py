@@ -28,8 +28,12 @@ EXAMPLES: Mapping[str, Any] = {
     "fit_error": 3.0,
     "fit_modulus_error": 3.0,
     "rules": {"overhang": "fail"},
+    "kind": "flange",
+    "length": 12.0,
+    "width": 16.0,
+    "thickness": 3.2,
 }
-"""Values for optional keys that the shipped ones leave out."""
+"""Values for keys that the shipped ones leave out and that have no default."""
 
 _BOUNDS = (("ge", "at least"), ("gt", "above"), ("le", "at most"), ("lt", "below"))
 
@@ -107,19 +111,30 @@ def _material() -> tuple[list[str], type[BaseModel], dict[str, Any]]:
 
 
 def _table(model: type[BaseModel], values: Mapping[str, Any], path: str) -> Iterator[str]:
-    """Lines of a table: its plain keys, then the tables in it."""
+    """Lines of a table: its plain keys, then the tables in it; absent ones commented out."""
     inner = {}
     for name, field in model.model_fields.items():
         value, nested = values.get(name), nested_model(field)
-        if nested is not None and isinstance(value, Mapping):
+        if nested is not None and (value is None or isinstance(value, Mapping)):
             inner[name] = (nested, value, field)
         else:
             yield from _key(name, field, value)
     for name, (nested, value, field) in inner.items():
         optional = " (optional: leave the table out without one)" * (field.default is None)
         about = (field.description or (nested.__doc__ or name).split("\n")[0]).rstrip(".")
-        yield from ("", f"# {about}{optional}", f"[{path}{name}]")
-        yield from _table(nested, value, f"{path}{name}.")
+        yield from ("", f"# {about}{optional}", f"{'# ' * (value is None)}[{path}{name}]")
+        if value is None:
+            yield from _keys_left_out(nested)
+        else:
+            yield from _table(nested, value, f"{path}{name}.")
+
+
+def _keys_left_out(model: type[BaseModel]) -> Iterator[str]:
+    """The keys of a table that is commented out, each with its default or an example."""
+    for name, field in model.model_fields.items():
+        about, _ = _key(name, field, None)
+        example = EXAMPLES.get(name) if field.is_required() else field.default
+        yield from (about, f"# {name} = {_as_toml(example)}")
 
 
 def _key(name: str, field: FieldInfo, value: Any) -> Iterator[str]:

@@ -10,6 +10,8 @@ if TYPE_CHECKING:
     from bellows_design.design.bellows_parameters import BellowsParameters
     from bellows_design.design.conditions import Limits, Load
     from bellows_design.design.design import Design
+    from bellows_design.design.features.fingertip import Fingertip
+    from bellows_design.design.features.mount import Mount
     from bellows_design.design.indent import Indent
     from bellows_design.design.overrides import with_overrides
     from bellows_design.design.port import Port
@@ -18,9 +20,11 @@ if TYPE_CHECKING:
 __all__ = [
     "BellowsParameters",
     "Design",
+    "Fingertip",
     "Indent",
     "Limits",
     "Load",
+    "Mount",
     "Port",
     "load_design",
     "shipped_designs",
@@ -33,6 +37,8 @@ __getattr__ = imported_when_asked_for(
         "bellows_parameters": ("BellowsParameters",),
         "conditions": ("Limits", "Load"),
         "design": ("Design",),
+        "features.fingertip": ("Fingertip",),
+        "features.mount": ("Mount",),
         "indent": ("Indent",),
         "overrides": ("with_overrides",),
         "port": ("Port",),

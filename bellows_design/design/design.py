@@ -16,6 +16,8 @@ from pydantic import Field, ValidationError, field_validator, model_validator
 from bellows_design.design.bellows_parameters import BellowsParameters
 from bellows_design.design.conditions import Limits, Load
 from bellows_design.design.digest import digest_of
+from bellows_design.design.features.fingertip import Fingertip
+from bellows_design.design.features.mount import Mount
 from bellows_design.design.indent import Indent
 from bellows_design.design.port import Port
 from bellows_design.errors import DesignError
@@ -52,6 +54,8 @@ class Design(Parameters):
         bellows: The twelve numbers, mm.
         indent: Groove under every chamber, mm; None without one.
         port: Socket for the tube, mm.
+        mount: Plate with screw holes at the root, mm; None without one.
+        fingertip: Pad at the tip, mm; None without one.
         material: Constants and strength, MPa; also given by the name of one of the library, or
             as a TOML file.
         load: Design pressure, MPa.
@@ -68,6 +72,8 @@ class Design(Parameters):
     bellows: BellowsParameters
     indent: Indent | None = None
     port: Port = Field(default_factory=Port)
+    mount: Mount | None = None
+    fingertip: Fingertip | None = None
     material: Material = Field(
         default_factory=lambda: load_material("ninjaflex"),
         description="name of a material of the library, a TOML file, or a table",
@@ -171,4 +177,8 @@ class Design(Parameters):
         if self.indent is not None:
             self.indent.check_fits(self.bellows)
         self.port.check_fits(self.bellows)
+        if self.mount is not None:
+            self.mount.check_fits(self.bellows, self.port)
+        if self.fingertip is not None:
+            self.fingertip.check_fits(self.bellows)
         return self

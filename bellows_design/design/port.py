@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from bellows_design.design.bellows_parameters import BellowsParameters
 from bellows_design.design.lengths import SMALLEST_FEATURE, Millimetres, length_field
 from bellows_design.validation.parameters import Parameters, require
@@ -23,6 +25,23 @@ class Port(Parameters):
     def axis_height(self) -> float:
         """Height z of the socket's axis, mm: the boss stands on the bed."""
         return self.tube_diameter / 2 + self.wall
+
+    @property
+    def radius(self) -> float:
+        """Half of the boss's width, and the radius of its round upper half, mm."""
+        return self.tube_diameter / 2 + self.wall
+
+    @property
+    def height(self) -> float:
+        """Height of the boss, mm."""
+        return self.axis_height + self.radius
+
+    def section(self, height: float) -> float:
+        """Area of the boss's section below that height (at most its own), bore included, mm²."""
+        above = max(0.0, height - self.axis_height)
+        round_part = above * math.sqrt(self.radius**2 - above**2)
+        round_part += self.radius**2 * math.asin(above / self.radius)
+        return 2 * self.radius * min(height, self.axis_height) + round_part
 
     def hole_radius(self, bellows: BellowsParameters) -> float:
         """Radius of the hole from the socket into the channel, mm (negative: they miss)."""

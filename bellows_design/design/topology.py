@@ -11,6 +11,7 @@ from collections.abc import Iterator, Mapping
 
 from bellows_design.design.bellows_parameters import BellowsParameters
 from bellows_design.design.design import Design
+from bellows_design.design.features.fingertip import Fingertip
 from bellows_design.design.indent import Indent
 from bellows_design.design.lengths import SMALLEST_FEATURE, snapped_radius
 
@@ -34,6 +35,7 @@ def same_topology(own: Design, other: Design, model: str = "full") -> str:
     for what, here, there in (
         ("bubbles", own.bellows.bubble_count, other.bellows.bubble_count),
         ("indent", _kind(own.indent), _kind(other.indent)),
+        ("ribs of the fingertip", *(_ribs(each, model) for each in (own, other))),
     ):
         if here != there:
             return f"{what}: {there} instead of {here}"
@@ -48,6 +50,8 @@ def signature(design: Design, model: str = "full") -> dict[str, float]:
     lengths = dict(_rounds(bellows)) | dict(_outside(bellows)) | dict(_inside(bellows))
     if model != "unit-cell":
         lengths |= dict(_ends(bellows))
+        if design.fingertip is not None:
+            lengths |= dict(_at_the_fingertip(bellows, design.fingertip))
     if indent is not None:
         groove = _outer_groove if indent.side == "outside" else _inner_groove
         lengths |= dict(groove(bellows, indent))
@@ -56,6 +60,12 @@ def signature(design: Design, model: str = "full") -> dict[str, float]:
 
 def _kind(indent: Indent | None) -> str:
     return "none" if indent is None else f"{indent.side} {indent.shape}"
+
+
+def _ribs(design: Design, model: str) -> str:
+    if model == "unit-cell":
+        return ""
+    return "no fingertip" if design.fingertip is None else str(design.fingertip.ribs)
 
 
 def _sign(length: float) -> int:
@@ -151,6 +161,12 @@ def _ends(p: BellowsParameters) -> Iterator[tuple[str, float]]:
         beyond = p.chamber_size[0] / 2 - p.channel_fillet / 2
         yield "the channel's end inside of the last chamber", beyond
         yield "the channel's end inside of the last chamber's fillet", beyond - p.chamber_fillet
+
+
+def _at_the_fingertip(p: BellowsParameters, pad: Fingertip) -> Iterator[tuple[str, float]]:
+    """Where the tendon meets the pad."""
+    yield "the fingertip's side outside of the tendon's", pad.width / 2 - p.tendon_width / 2
+    yield "the fingertip's top above the tendon's", pad.thickness - p.tendon_height
 
 
 def _outer_groove(p: BellowsParameters, indent: Indent) -> Iterator[tuple[str, float]]:

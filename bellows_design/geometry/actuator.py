@@ -14,6 +14,8 @@ from contextlib import suppress
 import cadquery as cq
 
 from bellows_design.design.bellows_parameters import BellowsParameters
+from bellows_design.design.features.fingertip import Fingertip
+from bellows_design.design.features.mount import Mount
 from bellows_design.design.indent import Indent
 from bellows_design.design.lengths import FULL_ROUND_SNAP, SMALLEST_FEATURE, snapped_radius
 from bellows_design.design.port import Port
@@ -28,7 +30,10 @@ from bellows_design.geometry.face_names import (
     SYMMETRY,
     TIP,
 )
+from bellows_design.geometry.fingertip import fingertip_pad
+from bellows_design.geometry.mount import mount_plate
 from bellows_design.geometry.named_solids import (
+    BEYOND,
     GeometryError,
     NamedSolid,
     box,
@@ -42,35 +47,45 @@ from bellows_design.geometry.named_solids import (
 LOOSEST = 0.02
 """mm. A solid whose faces meet less exactly has no mesh that keeps the tolerance of an STL."""
 
-BEYOND = 1.0
-"""mm. How far a cutting solid reaches past what it cuts."""
 
-
-def printed_part(bellows: BellowsParameters, indent: Indent | None, port: Port) -> NamedSolid:
+def printed_part(
+    bellows: BellowsParameters,
+    indent: Indent | None,
+    port: Port,
+    mount: Mount | None = None,
+    fingertip: Fingertip | None = None,
+) -> NamedSolid:
     """Solid as printed: closed tip, socket for the tube at the root.
 
-    Faces: ``cavity``, ``outside``, ``root``, ``tip``, ``port`` (the socket and its mouth).
+    Faces: ``cavity``, ``outside``, ``root``, ``tip``, ``port`` (the socket and its mouth) and
+    ``mount`` (its plate, where that is no part of another face).
 
     Raises:
-        DesignError: indent or port do not fit the bellows.
+        DesignError: indent, port, mount or fingertip do not fit the bellows.
         GeometryError: the CAD kernel failed.
     """
     port.check_fits(bellows)
-    body = fused(_outer(bellows, indent), _port_boss(bellows, port))
+    body = fused(_outer(bellows, indent, fingertip), _port_boss(bellows, port))
+    if mount is not None:
+        mount.check_fits(bellows, port)
+        body = fused(body, mount_plate(mount, bellows, port))
     return cut(body, _cavity(bellows, indent), *_port_bore(bellows, port))
 
 
-def half_body(bellows: BellowsParameters, indent: Indent | None) -> NamedSolid:
+def half_body(
+    bellows: BellowsParameters, indent: Indent | None, fingertip: Fingertip | None = None
+) -> NamedSolid:
     """Half y >= 0 of the actuator with its cavity closed (no port), for analysis.
 
-    Faces: ``cavity``, ``outside``, ``root`` (x = 0), ``tip`` (x = length), ``symmetry`` (y = 0).
-    Raises like :func:`printed_part`.
+    Faces: ``cavity``, ``outside``, ``root`` (x = 0), ``tip`` (the end of the tendon, or of the
+    fingertip), ``symmetry`` (y = 0). Raises like :func:`printed_part`.
     """
+    end = bellows.length + (0.0 if fingertip is None else fingertip.length)
     other_half = box(
         (-BEYOND, -bellows.bubble_width, -BEYOND),
-        (bellows.length + BEYOND, 0, bellows.bubble_height + BEYOND),
+        (end + BEYOND, 0, bellows.bubble_height + BEYOND),
     )
-    return cut(full_body(bellows, indent), named(other_half, SYMMETRY))
+    return cut(full_body(bellows, indent, fingertip), named(other_half, SYMMETRY))
 
 
 def unit_cell(bellows: BellowsParameters, indent: Indent | None) -> NamedSolid:
@@ -115,13 +130,22 @@ def _section_name(face: cq.Face, own: str) -> str:
     return GAP_MIDDLE if abs(face.normalAt().x) > 0.5 else own
 
 
-def full_body(bellows: BellowsParameters, indent: Indent | None) -> NamedSolid:
+def full_body(
+    bellows: BellowsParameters, indent: Indent | None, fingertip: Fingertip | None = None
+) -> NamedSolid:
     """The whole actuator with its cavity closed (no port); faces as in :func:`half_body`."""
-    return cut(_outer(bellows, indent), _cavity(bellows, indent))
+    return cut(_outer(bellows, indent, fingertip), _cavity(bellows, indent))
 
 
-def _outer(bellows: BellowsParameters, indent: Indent | None) -> NamedSolid:
-    outer = fused(_tendon(bellows), *_repeated(_bubble(bellows), bellows, OUTSIDE))
+def _outer(
+    bellows: BellowsParameters, indent: Indent | None, fingertip: Fingertip | None
+) -> NamedSolid:
+    parts = [_tendon(bellows), *_repeated(_bubble(bellows), bellows, OUTSIDE)]
+    if fingertip is not None:
+        fingertip.check_fits(bellows)
+        tendon = parts[0].renamed(lambda _, own: OUTSIDE if own == TIP else own)
+        parts = [tendon, *parts[1:], fingertip_pad(fingertip, bellows)]
+    outer = fused(*parts)
     if indent is None or indent.side == "inside":
         return outer
     indent.check_fits(bellows)
@@ -277,7 +301,7 @@ def _port_boss(bellows: BellowsParameters, port: Port) -> NamedSolid:
     reach = port.wall
     if bellows.root_length - reach < SMALLEST_FEATURE:
         reach = bellows.root_length + bellows.bubble_thickness / 2
-    radius, axis = port.tube_diameter / 2 + port.wall, port.axis_height
+    radius, axis = port.radius, port.axis_height
     round_part = _cylinder_x(radius, axis, -port.depth, reach)
     foot = box((-port.depth, -radius, 0), (reach, radius, axis))
     return fused(named(round_part, OUTSIDE), named(foot, OUTSIDE))

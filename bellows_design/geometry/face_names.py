@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-OUTSIDE, CAVITY, ROOT, TIP, SYMMETRY, PORT = (
+OUTSIDE, CAVITY, ROOT, TIP, SYMMETRY, PORT, MOUNT = (
     "outside",
     "cavity",
     "root",
     "tip",
     "symmetry",
     "port",
+    "mount",
 )
 BUBBLE_MIDDLE, GAP_MIDDLE = "bubble_middle", "gap_middle"

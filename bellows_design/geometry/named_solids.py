@@ -22,6 +22,9 @@ from bellows_design.errors import BellowsError
 
 Point = tuple[float, float, float]
 
+BEYOND = 1.0
+"""mm. How far a cutting solid reaches past what it cuts."""
+
 SEWING_TOLERANCE = 1e-6
 """mm. Faces of one rounded box share edges exactly but for rounding."""
 

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from bellows_design.design.bellows_parameters import BellowsParameters
 from bellows_design.design.design import Design
+from bellows_design.design.features.fingertip import Fingertip
 from bellows_design.design.indent import Indent
 from bellows_design.design.lengths import snapped_radius
 from solver.arrays import Reals
@@ -71,7 +72,7 @@ def boxes_of(design: Design, model: str, channel_end: float = 0.5) -> Boxes:
     repeated = [box.moved(x) for x in middles for box in _of_a_bubble(design)]
     along = _of_the_cell if model == "unit-cell" else _of_the_actuator
     level = abs(design.bellows.tendon_thickness - design.bellows.bubble_thickness) < DEGENERATE
-    return _arrays([*along(design.bellows, channel_end), *repeated], level)
+    return _arrays([*along(design, channel_end), *repeated], level)
 
 
 def _arrays(boxes: list[Box], level: bool) -> Boxes:
@@ -83,22 +84,31 @@ def _arrays(boxes: list[Box], level: bool) -> Boxes:
     return Boxes(core, radius, np.array([box.role for box in boxes]), level)
 
 
-def _of_the_cell(bellows: BellowsParameters, _: float) -> Iterator[Box]:
+def _of_the_cell(design: Design, _: float) -> Iterator[Box]:
     """Tendon and channel of the unit cell; the channel runs on beyond the gap's middle."""
+    bellows = design.bellows
     end = bellows.pitch / 2
     yield _tendon(bellows, -end, end)
     yield _channel(bellows, -FAR, FAR)
 
 
-def _of_the_actuator(bellows: BellowsParameters, channel_end: float) -> Iterator[Box]:
-    """Tendon and channel of the whole actuator, or of half of it."""
-    last, wall, radius = (
-        bellows.bubble_middles[-1],
-        bellows.tendon_thickness,
-        bellows.channel_fillet,
-    )
+def _of_the_actuator(design: Design, channel_end: float) -> Iterator[Box]:
+    """Tendon, channel and fingertip of the whole actuator, or of half of it."""
+    bellows = design.bellows
+    end = bellows.bubble_middles[-1] + channel_end * bellows.channel_fillet
     yield _tendon(bellows, 0.0, bellows.length)
-    yield _channel(bellows, wall, last + channel_end * radius)
+    yield _channel(bellows, bellows.tendon_thickness, end)
+    if design.fingertip is not None:
+        yield from _pad(design.fingertip, bellows.length)
+
+
+def _pad(fingertip: Fingertip, start: float) -> Iterator[Box]:
+    """The fingertip that begins at ``start``, and the grooves in it."""
+    half, end = fingertip.width / 2, start + fingertip.length
+    yield Box((start, -half, 0.0), (end, half, fingertip.thickness), 0.0, SOLID)
+    for x in fingertip.grooves:
+        lower, upper = start + x, start + x + fingertip.groove_width
+        yield Box((lower, -FAR, -FAR), (upper, FAR, fingertip.rib_height), 0.0, AIR)
 
 
 def _tendon(bellows: BellowsParameters, start: float, stop: float) -> Box:

@@ -18,8 +18,8 @@ LAW = ("model", "mu", "alpha", "higher", "constants")
 def distance(one: Design, other: Design) -> float:
     """Root of the sum of squares of the relative differences of two designs' numbers.
 
-    Infinite where other things differ. Port, printer and limits do not count, nor do lengths of the
-    actuator's ends.
+    Infinite where other things differ. Port, mount, printer and limits do not count, nor do lengths
+    of the actuator's ends.
     """
     ours, theirs = _numbers(one), _numbers(other)
     if ours.keys() != theirs.keys():
@@ -33,6 +33,7 @@ def _numbers(design: Design) -> dict[str, Any]:
     counting = {
         "bellows": {k: v for k, v in table["bellows"].items() if k not in WITHOUT_EFFECT},
         "indent": table["indent"],
+        "fingertip": table["fingertip"],
         "material": {key: table["material"][key] for key in LAW},
         "load": table["load"],
     }

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from printers.arrays import Floats
 from printers.measure.part import MeasuredPart
 from printers.report import RuleResult, pass_or_fail, place
 from printers.tolerances import FACET_TOLERANCE, ROUNDING
@@ -27,11 +28,14 @@ def check_build_volume(part: MeasuredPart) -> Iterator[RuleResult]:
 
 
 def check_cross_section(part: MeasuredPart) -> Iterator[RuleResult]:
-    """The extents in y and z must stay within the model's limit, if it has one."""
+    """The extents in y and z must stay within the model's limit, if it has one.
+
+    Where the limit counts from a place on, what begins and ends before it is left out.
+    """
     limit = part.model.cross_section_limit
     if limit is None:
         return
-    extent = np.ptp(part.surface.bounds, axis=0)[1:]
+    extent = _limited_extent(part)
     fits = bool((extent <= np.asarray(limit) + ROUNDING).all())
     excess = ", ".join(
         f"{axis} by {over:.2f} mm"
@@ -49,6 +53,14 @@ def check_cross_section(part: MeasuredPart) -> Iterator[RuleResult]:
         message,
         _EXTENT,
     )
+
+
+def _limited_extent(part: MeasuredPart) -> Floats:
+    """Extents in y and z of what the limit of the cross-section counts for, mm."""
+    corners, start = part.surface.corners.reshape(-1, 3), part.model.cross_section_start
+    if start is not None:
+        corners = corners[corners[:, 0] > start + ROUNDING]
+    return np.asarray(np.ptp(corners[:, 1:], axis=0)) if len(corners) else np.zeros(2)
 
 
 def check_bed_contact(part: MeasuredPart) -> Iterator[RuleResult]:

@@ -21,7 +21,8 @@ SHORT = ("offset=14", "length=18.4", "number_of_bubbles=1", "indent=none")
 @cache
 def report(tolerance: float, *changes: str) -> PrintabilityReport:
     design = with_overrides(load_design("finger"), [*SHORT, *changes])
-    solid = printed_part(design.bellows, design.indent, design.port).solid
+    features = design.mount, design.fingertip
+    solid = printed_part(design.bellows, design.indent, design.port, *features).solid
     model = printed_model(design, tessellate(solid, tolerance))
     return check_printability(model, load_profile("prusa_i3"))
 
@@ -53,6 +54,36 @@ def test_walls_are_judged_as_declared_and_as_measured(
     changes: tuple[str, ...], failing: set[str]
 ) -> None:
     assert {rule.rule for rule in report(0.02, *changes).failures} == failing
+
+
+PAD = ("fingertip.length=8", "fingertip.width=16", "fingertip.thickness=3", "fingertip.ribs=4")
+STUB = ("length=20", "number_of_bubbles=1", "offset=5")
+
+
+@pytest.mark.parametrize(
+    "mount",
+    [
+        ("mount.kind=foot", "mount.holes=4"),
+        ("mount.kind=foot", "mount.edge_distance=1.2", "mount.fillet=0"),
+        ("mount.kind=flange", "mount.thickness=4"),
+        ("mount.kind=flange", "mount.holes=4", "mount.edge_distance=1.2"),
+    ],
+)
+def test_a_finger_with_mount_and_fingertip_keeps_all_rules(mount: tuple[str, ...]) -> None:
+    found = report(0.02, *STUB, *PAD, *mount)
+    assert found.verdict == "pass", [rule.message for rule in found.failures]
+    assert {warning.rule for warning in found.warnings} <= {"overhang"}
+
+
+def test_the_room_of_the_cross_section_is_that_of_the_finger_and_not_of_its_mount() -> None:
+    flange = ("mount.kind=flange", "mount.thickness=4")
+    wide = report(0.02, *STUB, *flange)
+    (section,) = (rule for rule in wide.rules if rule.rule == "cross_section")
+    assert (section.verdict, section.measured) == ("pass", "20.00 × 20.00")
+    (volume,) = (rule for rule in wide.rules if rule.rule == "build_volume")
+    assert "36.20" in str(volume.measured)
+    narrow = report(0.02, *STUB, *flange, "limits.cross_section_width=19")
+    assert [rule.rule for rule in narrow.failures] == ["cross_section"]
 
 
 def test_a_boss_of_another_thickness_than_declared_is_found() -> None:

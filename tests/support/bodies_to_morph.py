@@ -10,6 +10,7 @@ import numpy as np
 from bellows_design.analysis.mesh_plan import first_plan
 from bellows_design.analysis.models import MODELS, shortened
 from bellows_design.design.design import Design
+from bellows_design.design.overrides import with_overrides
 from bellows_design.design.shipped import load_design, shipped_designs
 from bellows_design.geometry.named_solids import NamedSolid
 from bellows_design.morphing import Morpher
@@ -20,6 +21,13 @@ from solver.mesh.jacobians import least_jacobians
 
 GROOVE = {"side": "outside", "shape": "rectangular", "depth": 0.5, "width": 3.0}
 INSIDE = {"side": "inside", "shape": "rectangular", "depth": 0.7, "width": 1.7, "fillet": 0.3}
+
+FINGERTIP = (
+    "fingertip.length=6",
+    "fingertip.width=12",
+    "fingertip.thickness=3",
+    "fingertip.ribs=3",
+)
 
 
 def changed(name: str, indent: dict[str, Any] | None = None, **bellows: Any) -> Design:
@@ -40,6 +48,7 @@ DESIGNS = {
     "channel below the floor": changed("prototype_1", tendon_thickness=1.2),
     "no fillets": changed("prototype_1", inner_fillet=0.0, outer_fillet=0.0),
     "no full rounds": changed("finger", outer_fillet=1.5, inner_fillet=0.6),
+    "fingertip": with_overrides(load_design("finger"), FINGERTIP),
 }
 
 

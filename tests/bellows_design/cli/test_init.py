@@ -11,23 +11,34 @@ import pytest
 from pydantic.fields import FieldInfo
 
 from bellows_design.cli.templates import Kind, name_from, template
-from bellows_design.design import BellowsParameters, Design, Indent, Limits, Load, Port, load_design
+from bellows_design.design import (
+    BellowsParameters,
+    Design,
+    Fingertip,
+    Indent,
+    Limits,
+    Load,
+    Mount,
+    Port,
+    load_design,
+)
 from bellows_design.materials.library import material_at
 from bellows_design.materials.material import Material
 from printers import Filament, PrinterProfile, SlicerAdvice, load_profile, profile_from_table
 
 Bellows = Callable[..., tuple[int, str, str]]
 RECORDS = {
-    Kind.DESIGN: (Design, BellowsParameters, Indent, Port, Load, Limits),
+    Kind.DESIGN: (Design, BellowsParameters, Indent, Port, Mount, Fingertip, Load, Limits),
     Kind.PRINTER: (PrinterProfile, SlicerAdvice, Filament),
     Kind.MATERIAL: (Material,),
 }
 
 
 def with_options(text: str) -> str:
-    """The file with every optional key that is commented out taken in."""
+    """The file with every optional key and table that is commented out taken in."""
     lines = (
-        line[2:] if line.startswith("# ") and " = " in line else line for line in template_of(text)
+        line[2:] if line.startswith("# ") and (" = " in line or line[2] == "[") else line
+        for line in template_of(text)
     )
     return "\n".join(lines)
 
@@ -83,6 +94,7 @@ def test_the_files_are_loaded_and_describe_what_is_shipped(
 def test_options_that_are_commented_out_may_be_taken_in() -> None:
     design = Design.from_toml(with_options(template(Kind.DESIGN, "mine")))
     assert design.bellows.number_of_bubbles == 7 and design.limits.max_von_mises == 4.0
+    assert design.mount is not None and design.fingertip is not None
     printer = tomllib.loads(with_options(template(Kind.PRINTER, "mine")))
     assert profile_from_table(printer).severity("overhang") == "fail"
     Material.model_validate(tomllib.loads(with_options(template(Kind.MATERIAL, "mine"))))

@@ -53,6 +53,20 @@ def test_a_cell_has_no_ends() -> None:
     assert same_topology(design(), design(length=49.0), "unit-cell") == ""
 
 
+def test_fingertips_tell_bodies_with_ends_apart_but_no_cells() -> None:
+    pad = {"length": 8.0, "width": 14.0, "thickness": 3.0, "ribs": 3}
+    own = Design.of(design(length=50.5).model_dump() | {"fingertip": pad})
+    longer, slim, smooth, none = (
+        Design.of(own.model_dump() | {"fingertip": each})
+        for each in (pad | {"length": 9.0}, pad | {"width": 5.0}, pad | {"ribs": 0}, None)
+    )
+    assert same_topology(own, longer) == ""
+    assert "the fingertip's side outside of the tendon's" in same_topology(own, slim)
+    assert same_topology(own, smooth) == "ribs of the fingertip: 0 instead of 3"
+    assert same_topology(own, none) == "ribs of the fingertip: no fingertip instead of 3"
+    assert {same_topology(own, each, "unit-cell") for each in (slim, smooth, none)} == {""}
+
+
 def test_a_design_is_its_own_neighbour() -> None:
     for indent in (None, GROOVE, INSIDE):
         assert same_topology(design(indent), design(indent)) == ""

@@ -18,9 +18,14 @@ from solver.mesh.jacobians import least_jacobians
 from solver.mesh.mid_nodes import SMALLEST_RATIO, jacobian_ratios
 
 GROOVED = "prototype_2_indent"
-QUICK = (("prototype_1", "unit-cell"), (GROOVED, "unit-cell"), ("finger", "half"))
+QUICK = (
+    ("prototype_1", "unit-cell"),
+    (GROOVED, "unit-cell"),
+    ("finger", "half"),
+    ("fingertip", "half"),
+)
 ALL = [(name, "unit-cell") for name in DESIGNS] + [
-    (name, "half") for name in ("prototype_1", GROOVED, "finger")
+    (name, "half") for name in ("prototype_1", GROOVED, "finger", "fingertip")
 ]
 
 

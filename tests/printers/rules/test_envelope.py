@@ -57,6 +57,23 @@ def test_the_cross_section_leaves_out_the_length(
         assert f"by {excess:.2f} mm" in result.message
 
 
+def test_a_cross_section_that_counts_from_a_place_on_leaves_out_what_lies_before(
+    solids: SimpleNamespace, prusa: PrinterProfile
+) -> None:
+    """The plate ends at x = 0, where the bar begins: its corners there do not count."""
+    plate, bar = solids.block((4, 36, 15), (-4, -18, 0)), solids.block((50, 18, 20), (0, -9, 0))
+    for start, measured, verdict in (
+        (None, "36.00 × 20.00", "fail"),
+        (-4.1, "36.00 × 20.00", "fail"),
+        (0.0, "18.00 × 20.00", "pass"),
+    ):
+        part = solids.part(
+            plate + bar, prusa, cross_section_limit=(20, 20), cross_section_start=start
+        )
+        (result,) = check_cross_section(part)
+        assert (result.measured, result.verdict) == (measured, verdict)
+
+
 def test_a_box_stands_on_all_of_its_footprint_wherever_it_is(
     solids: SimpleNamespace, prusa: PrinterProfile
 ) -> None:

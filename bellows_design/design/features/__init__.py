@@ -1,0 +1,1 @@
+"""What may be added to the bellows: a mount at the root, a fingertip at the tip."""
