@@ -146,8 +146,8 @@ def _until_touched(loaded: LoadedChain, load: LoadPoint, balance: Balance, goal:
         return 1.0
     frames = Configuration.of(loaded.chain, goal.motions).frames
     positions = loaded.contacts.positions(frames) - load.object_shift
-    before = np.array([each.distance(balance.positions).value for each in objects])
-    after = np.array([each.distance(positions).value for each in objects])
+    before = np.array([each.gap(balance.positions) for each in objects])
+    after = np.array([each.gap(positions) for each in objects])
     before[balance.contact.objects, balance.contact.points] = -1.0
     new = (before >= 0) & (after < -LARGEST_OVERLAP)
     parts = (before[new] + LARGEST_OVERLAP) / (before[new] - after[new])
