@@ -77,7 +77,7 @@ def test_a_wall_below_the_tip_does_what_a_load_cell_does() -> None:
     assert [point.place for point in pressed.contacts] == pytest.approx([LENGTH])
     assert pressed.contact_force == pytest.approx((0.0, held.held_force[1]), rel=2e-3)
     assert pressed.tip == pytest.approx(held.tip, abs=0.05)
-    assert pressed.contact_energy < 1e-3 * pressed.stored_energy
+    assert pressed.contact_energy < 5e-3 * pressed.stored_energy
 
 
 def test_objects_out_of_reach_leave_the_finger_alone() -> None:
