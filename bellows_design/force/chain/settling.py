@@ -26,7 +26,7 @@ FIRST_TIME, SHORTEST_TIME, LONGEST_TIME = 0.5, 1e-3, 1e3
 SLOW, FAST = 0.02, 0.2
 """Rotations of a piece in one step, rad: below the first the next one is longer, above the second
 it is taken again, shorter."""
-AT_REST = 1e-6
+AT_REST = 1e-9
 """Rotation by time, rad."""
 MOST_STEPS = 300
 
