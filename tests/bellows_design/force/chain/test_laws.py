@@ -21,7 +21,7 @@ CURL = 0.4
 
 @dataclass(frozen=True)
 class StiffeningLaw:
-    """Ten times stiffer in bending below the moment ``onset``, where bubbles touch.
+    """Stiffer in bending below the moment ``onset``, where bubbles touch: by default ten times.
 
     The compliance changes within a tenth of it. Energies are left those of the softer law.
     """
@@ -29,6 +29,7 @@ class StiffeningLaw:
     length: float
     onset: float = -10.0
     highest: float = 1.0
+    lost: float = 0.9
 
     def response(self, pressure: float, loads: np.ndarray) -> SectionResponse:
         if pressure > self.highest:
@@ -39,8 +40,8 @@ class StiffeningLaw:
         ramp = np.logaddexp(0.0, past)
         share = 1 / (1 + np.exp(-past))
         motion, compliance = linear.motion.copy(), linear.compliance.copy()
-        motion[:, 0] += 0.9 * soft * width * ramp
-        compliance[:, 0, 0] -= 0.9 * soft * share
+        motion[:, 0] += self.lost * soft * width * ramp
+        compliance[:, 0, 0] -= self.lost * soft * share
         return replace(linear, motion=motion, compliance=compliance)
 
 
@@ -79,6 +80,16 @@ def test_a_law_that_ends_ends_the_path_with_the_last_good_state() -> None:
     assert path.ending is not None and path.ending.cause == "law"
     assert "lies outside the law" in path.ending.sentence
     assert len(path.states) == 2 and path.last.pressure == pytest.approx(0.05, abs=1e-4)
+
+
+def test_a_piece_that_is_unstable_by_itself_ends_the_path() -> None:
+    """Its bending compliance is 1 - 1.1 of the soft one once it has stiffened too much."""
+    law = StiffeningLaw(LENGTH / 8, lost=1.1)
+    chain = Chain(tuple(Piece(law, number % 2 == 0) for number in range(8)))
+    path = follow(chain, Surroundings(tip_moment=-20.0), [0.0])
+    assert path.ending is not None and path.ending.cause == "law"
+    assert path.ending.beyond is None and path.last.stable
+    assert "no positive compliance" in path.ending.sentence
 
 
 def test_softer_ends_bend_like_longer_pieces() -> None:
