@@ -129,7 +129,7 @@ def follow_loads(
 def rest(loaded: LoadedChain) -> ChainState:
     """The undeformed finger without loads, its tip held where it is."""
     frames = loaded.at_rest.frames
-    edge = np.append(loaded.carriers[np.array([-1])].positions(frames)[0], frames[-1, 2])
+    edge = np.append(loaded.edge.positions(frames)[0], frames[-1, 2])
     hold = loaded.surroundings.hold
     shift = [
         0.0 if value is None else float(at - value)
