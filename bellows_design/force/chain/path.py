@@ -25,7 +25,7 @@ from bellows_design.force.chain.readings import state_of, unknowns_of
 from bellows_design.force.chain.settling import settled
 from bellows_design.force.chain.state import ChainState
 from bellows_design.force.chain.surroundings import LoadPoint, Surroundings
-from bellows_design.force.chain.sweep import passed_through
+from bellows_design.force.chain.sweep import Moment, passed_through
 
 SMALLEST_STEP = 1 / 2048
 """Part of the way between two wanted loads."""
@@ -195,9 +195,18 @@ def _attempt(loaded: LoadedChain, last: ChainState, load: LoadPoint) -> ChainSta
     state = state_of(loaded, load, found)
     if not state.stable:
         return _ending("instability" if np.isfinite(state.margin) else "law", load)
-    if _corrected(loaded, found) > LARGEST_CORRECTION or passed_through(loaded, last, state):
+    if _corrected(loaded, found) > LARGEST_CORRECTION or _passed(loaded, last, state):
         return _ending("jump", load)
     return state
+
+
+def _passed(loaded: LoadedChain, before: ChainState, after: ChainState) -> bool:
+    """Whether a step leads through an object."""
+    first, last = (
+        Moment(each.motions, each.load.object_shift, each.history.positions)
+        for each in (before, after)
+    )
+    return passed_through(loaded, first, last)
 
 
 def _corrected(loaded: LoadedChain, found: Equilibrium) -> float:
