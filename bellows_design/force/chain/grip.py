@@ -21,6 +21,8 @@ LET_GO = 0.5
 """Part of the largest force at which the pull ends."""
 CLOSE = 1e-3
 """Of a force that is looked for, as part of the largest one."""
+FINER = 8
+"""Steps that take the place of two where the force is largest."""
 MOST_TRIALS = 40
 
 
@@ -57,6 +59,7 @@ class Grip:
         pull: how the object is pulled.
         pulled: states along the pull, from the closed finger on.
         ending: why the pull ended before the finger let go, if by its equilibrium.
+        jumps: where the finger jumped while the object was pulled.
         let_go: whether the force fell to half of its largest value; otherwise a longer pull may
             find a larger one.
     """
@@ -67,6 +70,7 @@ class Grip:
     pulled: tuple[ChainState, ...]
     ending: Ending | None
     let_go: bool
+    jumps: tuple[Ending, ...] = ()
 
     @property
     def curve(self) -> tuple[tuple[float, float], ...]:
@@ -140,24 +144,46 @@ def grip(
     """
     pull = pull or Pull()
     loaded = LoadedChain.of(chain, surroundings)
-    closing = follow(chain, surroundings, pressures)
+    closing = follow(chain, surroundings, pressures, jumps=True)
     if closing.ending:
         return Grip(loaded, closing, pull, (), None, False)
     states, ending = [closing.last], None
+    jumps: list[Ending] = []
+    longest = pull.longest + 1e-9
     while not _let_go(states, pull) and ending is None:
         way = pull.way(states[-1]) + pull.step
-        if way > pull.longest + 1e-9:
-            return Grip(loaded, closing, pull, tuple(states), None, False)
+        if way > longest:
+            break
         path = _moved(loaded, states[-1], pull, way)
         states.extend(path.steps[1:])
+        jumps.extend(path.jumps)
         ending = path.ending
-    return Grip(loaded, closing, pull, tuple(states), ending, ending is None)
+    released = _let_go(states, pull)
+    states = _with_peak(loaded, states, pull)
+    return Grip(loaded, closing, pull, tuple(states), ending, released, tuple(jumps))
+
+
+def _with_peak(loaded: LoadedChain, states: list[ChainState], pull: Pull) -> list[ChainState]:
+    """The states, with finer steps about the one where the force is largest."""
+    top = max(range(len(states)), key=lambda number: pull.force(states[number]))
+    first, last = max(top - 1, 0), min(top + 1, len(states) - 1)
+    if first == last:
+        return states
+    ways = np.linspace(pull.way(states[first]), pull.way(states[last]), FINER + 1)[1:]
+    fine = [states[first]]
+    for way in ways:
+        path = _moved(loaded, fine[-1], pull, float(way))
+        if path.ending or path.jumps:
+            break
+        fine.append(path.last)
+    reached = pull.way(fine[-1])
+    return states[:first] + fine + [each for each in states[top:] if pull.way(each) > reached]
 
 
 def _moved(loaded: LoadedChain, start: ChainState, pull: Pull, way: float) -> Path:
     """The path from ``start`` until the objects are ``way`` mm along the pull."""
     shift = pull.direction[0] * way, pull.direction[1] * way
-    return follow_loads(loaded, start, [start.load.shifted(shift)])
+    return follow_loads(loaded, start, [start.load.shifted(shift)], jumps=True)
 
 
 def _let_go(states: Sequence[ChainState], pull: Pull) -> bool:
