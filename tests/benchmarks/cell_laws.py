@@ -5,7 +5,8 @@
 For each design and tolerance: rows, points, factorizations and processor time of the law beside
 those of the ordinary evaluation in the same process, and the error of the rotation at random
 pressures and moments that are computed on the same mesh. Processor times, as others may be at work
-on the machine; kernels are compiled before. Writes `cell_laws.json`, row by row.
+on the machine; kernels are compiled before. Writes `cell_laws.json`, row by row;
+rows of other designs and tolerances stay.
 """
 
 from __future__ import annotations
@@ -37,12 +38,17 @@ def main() -> None:
     parser.add_argument("--tolerances", nargs="+", type=float, default=[0.02, 0.01, 0.005])
     parser.add_argument("--points", type=int, default=20)
     arguments = parser.parse_args()
-    rows = []
+    rows = json.loads(RESULT.read_text()) if RESULT.exists() else []
     for name in arguments.designs:
         for tolerance in arguments.tolerances:
+            rows = [row for row in rows if not _is(row, name, tolerance)]
             rows.append(measured(name, tolerance, arguments.points))
             print(json.dumps(rows[-1]), flush=True)
             RESULT.write_text(json.dumps(rows, indent=1) + "\n")
+
+
+def _is(row: dict[str, object], name: str, tolerance: float) -> bool:
+    return (row["design"], row["tolerance_percent"]) == (name, 100 * tolerance)
 
 
 def measured(name: str, tolerance: float, points: int) -> dict[str, object]:
