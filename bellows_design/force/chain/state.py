@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from bellows_design.force.chain.contact.forces import SlipHistory
+from bellows_design.force.chain.surroundings import UNLOADED, LoadPoint
 from solver.arrays import Reals
 
 
@@ -52,6 +54,14 @@ class ChainState:
         stored_energy: of the pieces: what pressure and section loads have put into them, N mm.
         contact_energy: in the penetration of contacts, N mm.
         iterations: of Newton's method on the way from the state before.
+        volume: of the air in all pieces, mm^3.
+        margin: least eigenvalue of I + C P'', with the pieces' compliance C and the loads' and
+            contacts' potential P, among motions that the hold allows: how far from a loss of
+            stability. One without loads, negative where unstable.
+        tip_stiffness: force by displacement along z at the tip's lower edge, N/mm: what a load cell
+            there finds as it is moved. Infinite where the tip cannot move.
+        load: how much of the loads acts.
+        slip: what friction knows of the steps before.
     """
 
     pressure: float
@@ -64,3 +74,20 @@ class ChainState:
     stored_energy: float
     contact_energy: float
     iterations: int
+    volume: float
+    margin: float
+    tip_stiffness: float
+    load: LoadPoint = UNLOADED
+    slip: SlipHistory | None = None
+
+    @property
+    def tip(self) -> tuple[float, float, float]:
+        """x and z of the tip's lower edge (mm) and angle of its face (rad)."""
+        x, z, angle = self.frames[-1]
+        return float(x), float(z), float(angle)
+
+    @property
+    def contact_force(self) -> tuple[float, float]:
+        """Sum of the objects' forces on the finger, x and z in N."""
+        forces = [point.force for point in self.contacts]
+        return sum(x for x, _ in forces), sum(z for _, z in forces)

@@ -1,0 +1,113 @@
+"""Residual and tangent of a loaded chain at given motions, section loads and held forces."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from bellows_design.force.chain.contact.forces import ContactForces, SlipHistory, contact_forces
+from bellows_design.force.chain.finger.kinematics import Configuration
+from bellows_design.force.chain.loaded_chain import LoadedChain
+from bellows_design.force.chain.surroundings import LoadPoint
+from bellows_design.force.section_law import SectionResponse
+from solver.arrays import Reals
+
+
+@dataclass(frozen=True)
+class Unknowns:
+    """What an equilibrium of n pieces is found for.
+
+    Attributes:
+        motions: (n, 3) in rad, mm, mm.
+        loads: (n, 3) in N mm, N, N.
+        held: x, z and moment at the tip's lower edge (3,) in N, N, N mm.
+    """
+
+    motions: Reals
+    loads: Reals
+    held: Reals
+
+    @classmethod
+    def at_rest(cls, count: int) -> Unknowns:
+        """Of an undeformed chain of ``count`` pieces."""
+        return cls(np.zeros((count, 3)), np.zeros((count, 3)), np.zeros(3))
+
+
+@dataclass(frozen=True)
+class Balance:
+    """A chain of n pieces near equilibrium.
+
+    Attributes:
+        configuration: of its sections.
+        response: of its pieces.
+        contact: forces of objects.
+        positions: of the points that objects may touch, relative to the objects (m, 2), mm.
+        tip: x, z and angle of the tip's lower edge (3,).
+        tip_jacobian: its derivative by the motions (3, 3 n).
+        force: minus the derivative of the potential by the motions (3 n,).
+        stiffness: second derivative of the potential, unsymmetric with friction (3 n, 3 n).
+    """
+
+    configuration: Configuration
+    response: SectionResponse
+    contact: ContactForces
+    positions: Reals
+    tip: Reals
+    tip_jacobian: Reals
+    force: Reals
+    stiffness: Reals
+
+    @classmethod
+    def of(
+        cls, loaded: LoadedChain, load: LoadPoint, at: Unknowns, history: SlipHistory
+    ) -> Balance:
+        """The balance at ``at``, under ``load``, after ``history``.
+
+        Raises:
+            BellowsError: The law of a piece does not reach so far.
+        """
+        chain = loaded.chain
+        response = chain.response(load.pressure, at.loads)
+        configuration = Configuration.of(chain, at.motions)
+        frames, size = configuration.frames, at.motions.size
+        by_motions = configuration.jacobian.reshape(len(frames), 3, size)
+        positions = loaded.contacts.positions(frames) - load.object_shift
+        contact = contact_forces(loaded.obstacles, positions, loaded.widths, history)
+        touching = loaded.contacts[contact.points]
+        touched = touching.jacobian(frames, by_motions)
+        carried = loaded.carriers.jacobian(frames, by_motions)
+        dead = loaded.dead_forces(load)
+        dead[-1] += at.held[:2]
+        moment = load.forces * loaded.surroundings.tip_moment + at.held[2]
+        force = np.einsum("mcj,mc->j", carried, dead) + np.einsum(
+            "mcj,mc->j", touched, contact.force
+        )
+        force += moment * by_motions[-1, 2]
+        rows = touched.reshape(-1, size)
+        pushed = np.einsum("mcd,mdj->mcj", contact.stiffness, touched).reshape(-1, size)
+        stiffness = rows.T @ pushed
+        stiffness -= loaded.carriers.curvature(chain, configuration, by_motions, dead)
+        stiffness -= touching.curvature(chain, configuration, by_motions, contact.force)
+        edge = loaded.carriers[np.array([-1])].positions(frames)[0]
+        return cls(
+            configuration,
+            response,
+            contact,
+            positions,
+            np.append(edge, frames[-1, 2]),
+            np.concatenate([carried[-1], by_motions[-1, 2:3]]),
+            force,
+            stiffness,
+        )
+
+    def flexed(self, columns: Reals) -> Reals:
+        """The pieces' compliance times ``columns`` (3 n, k)."""
+        compliance = self.response.compliance
+        blocks = columns.reshape(len(compliance), 3, -1)
+        return (compliance @ blocks).reshape(columns.shape)
+
+    @property
+    def operator(self) -> Reals:
+        """I + C P'' with the compliance C of the pieces, shape (3 n, 3 n)."""
+        return np.eye(len(self.force)) + self.flexed(self.stiffness)

@@ -1,0 +1,1 @@
+"""Rigid objects, and what they exert on points that touch them."""

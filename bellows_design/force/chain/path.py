@@ -1,0 +1,177 @@
+"""The branch of equilibria that a real finger follows as loads grow from nothing.
+
+Every step starts from the state before; Newton's first iteration is the tangent at that state, and
+a step counts only if the equilibrium found is stable and near where the tangent pointed. Otherwise
+the step is halved, down to a part of the way that decides nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from bellows_design.errors import BellowsError
+from bellows_design.force.chain.balance import Unknowns
+from bellows_design.force.chain.contact.forces import SlipHistory
+from bellows_design.force.chain.equilibrium import Equilibrium, NoEquilibriumError, solve
+from bellows_design.force.chain.finger.chain import Chain
+from bellows_design.force.chain.finger.kinematics import Configuration
+from bellows_design.force.chain.loaded_chain import LoadedChain
+from bellows_design.force.chain.readings import state_of, unknowns_of
+from bellows_design.force.chain.state import ChainState
+from bellows_design.force.chain.surroundings import LoadPoint, Surroundings
+
+SMALLEST_STEP = 1 / 2048
+"""Part of the way between two wanted loads."""
+LARGEST_CORRECTION = 0.1
+"""Of a section's angle after the first iteration, rad: more is a jump, until a smaller step shows
+that it is none."""
+FEW_ITERATIONS = 8
+"""After so many or fewer the next step is twice as long."""
+NEAR_LIMIT = 0.1
+"""Margin of stability below which a lack of equilibria is ascribed to a limit point."""
+
+Cause = Literal["instability", "limit point", "jump", "law", "no equilibrium"]
+
+
+@dataclass(frozen=True)
+class Ending:
+    """Why a path ended before its last load.
+
+    Attributes:
+        cause: ``instability``: equilibria go on, but are unstable; ``limit point``: there is none
+            near, and the last one is about to lose its stability; ``jump``: the next one found is
+            stable, but far away; ``law``: that of a piece does not reach so far; ``no
+            equilibrium``: Newton's method found none.
+        sentence: the same for users.
+        load: where no more equilibrium was found.
+        beyond: a stable equilibrium at ``load`` to which the finger would jump, if one was found.
+    """
+
+    cause: Cause
+    sentence: str
+    load: LoadPoint
+    beyond: ChainState | None = None
+
+
+@dataclass(frozen=True)
+class Path:
+    """Stable equilibria of one branch.
+
+    Attributes:
+        states: at the wanted loads, as far as they were reached.
+        steps: all of the way, from the first to the last good one.
+        ending: why not all wanted loads were reached; None if they were.
+    """
+
+    states: tuple[ChainState, ...]
+    steps: tuple[ChainState, ...]
+    ending: Ending | None
+
+    @property
+    def last(self) -> ChainState:
+        """The last good state."""
+        return self.steps[-1]
+
+
+def follow(chain: Chain, surroundings: Surroundings, pressures: Sequence[float]) -> Path:
+    """States at ``pressures`` (MPa), after dead forces, weights and holds without pressure.
+
+    Raises:
+        BellowsError: A dead force is not on the finger, or an object reaches into the undeformed
+            finger.
+    """
+    loaded = LoadedChain.of(chain, surroundings)
+    first = follow_loads(loaded, rest(loaded), [LoadPoint()])
+    if first.ending:
+        return Path((), first.steps, first.ending)
+    path = follow_loads(loaded, first.last, [LoadPoint(float(each)) for each in pressures])
+    return Path(path.states, (*first.steps, *path.steps[1:]), path.ending)
+
+
+def follow_loads(loaded: LoadedChain, start: ChainState, wanted: Sequence[LoadPoint]) -> Path:
+    """The branch from ``start``, an equilibrium of ``loaded``, straight to each of ``wanted``."""
+    steps = [start]
+    states: list[ChainState] = []
+    for target in wanted:
+        ending = _go(loaded, steps, target)
+        if ending:
+            return Path(tuple(states), tuple(steps), ending)
+        states.append(steps[-1])
+    return Path(tuple(states), tuple(steps), None)
+
+
+def rest(loaded: LoadedChain) -> ChainState:
+    """The undeformed finger without loads, its tip held where it is."""
+    frames = loaded.at_rest.frames
+    edge = np.append(loaded.carriers[np.array([-1])].positions(frames)[0], frames[-1, 2])
+    hold = loaded.surroundings.hold
+    shift = [
+        0.0 if value is None else float(at - value)
+        for at, value in zip(edge, hold.values, strict=True)
+    ]
+    if hold.pushes_only:
+        shift = [min(each, 0.0) for each in shift]
+    load = LoadPoint(forces=0.0, gravity=0.0, hold_shift=(shift[0], shift[1], shift[2]))
+    count = len(loaded.surroundings.objects), len(loaded.widths)
+    slip = SlipHistory(loaded.contacts.positions(frames), np.zeros(count))
+    found = solve(loaded, load, Unknowns.at_rest(len(loaded.chain.pieces)), slip)
+    return state_of(loaded, load, found)
+
+
+def _go(loaded: LoadedChain, steps: list[ChainState], target: LoadPoint) -> Ending | None:
+    """Append the states from the last of ``steps`` to ``target``, as far as there are any."""
+    start, done, step = steps[-1].load, 0.0, 1.0
+    if start == target:
+        return None
+    while done < 1:
+        fraction = min(1.0, done + step)
+        outcome = _attempt(loaded, steps[-1], start.towards(target, fraction))
+        if isinstance(outcome, ChainState):
+            steps.append(outcome)
+            done = fraction
+            step *= 2 if outcome.iterations <= FEW_ITERATIONS else 1
+        elif step <= SMALLEST_STEP:
+            return outcome
+        else:
+            step = min(step, 1 - done) / 2
+    return None
+
+
+def _attempt(loaded: LoadedChain, last: ChainState, load: LoadPoint) -> ChainState | Ending:
+    """The next state, or why there is none."""
+    assert last.slip is not None
+    try:
+        found = solve(loaded, load, unknowns_of(last), last.slip)
+    except NoEquilibriumError:
+        near = last.margin < NEAR_LIMIT
+        return _ending("limit point" if near else "no equilibrium", load)
+    except BellowsError as error:
+        return Ending("law", str(error), load)
+    state = state_of(loaded, load, found)
+    if not state.stable:
+        return _ending("instability", load)
+    if _corrected(loaded, found) > LARGEST_CORRECTION:
+        return _ending("jump", load, state)
+    return state
+
+
+def _corrected(loaded: LoadedChain, found: Equilibrium) -> float:
+    """How far the angles of the sections are from where the tangent pointed, rad."""
+    pointed = Configuration.of(loaded.chain, found.first.motions).frames
+    return float(np.abs(found.balance.configuration.frames - pointed)[:, 2].max())
+
+
+SENTENCES: dict[str, str] = {
+    "instability": "the finger becomes unstable: it snaps away",
+    "limit point": "the finger finds no equilibrium near the last one: it snaps away",
+    "jump": "the finger jumps to another equilibrium",
+    "no equilibrium": "no equilibrium was found near the last one",
+}
+
+
+def _ending(cause: Cause, load: LoadPoint, beyond: ChainState | None = None) -> Ending:
+    return Ending(cause, f"at {load.pressure:.4g} MPa {SENTENCES[cause]}", load, beyond)

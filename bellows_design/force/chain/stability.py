@@ -1,0 +1,46 @@
+"""Stability of an equilibrium, and the stiffness of its tip, from the tangent."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bellows_design.force.chain.balance import Balance
+
+TIP_Z = 1
+
+
+def stability_margin(balance: Balance, holding: NDArray[np.bool_]) -> float:
+    """Least real part of an eigenvalue λ of (C⁻¹ + P'') v = λ C⁻¹ v among motions v that are free.
+
+    C is the compliance of the pieces, which may be rigid: the eigenvalues are those of I + C P''.
+    Those of motions that the hold forbids are left out by the projection along C Bᵀ, with B the
+    derivative of what is held. With friction P'' is not symmetric, and a negative real part means
+    that a small motion against damping in proportion to C⁻¹ grows. Minus infinity where a piece is
+    unstable by itself, its compliance not positive.
+    """
+    compliance = np.linalg.eigvalsh(balance.response.compliance)
+    if (compliance.min(axis=1) < -1e-9 * compliance.max(axis=1)).any():
+        return -np.inf
+    rows = balance.tip_jacobian[holding]
+    operator = balance.operator
+    if len(rows):
+        across = balance.flexed(rows.T)
+        inverse = np.linalg.pinv(rows @ across)
+        operator = operator - across @ (inverse @ (rows @ operator))
+        operator += across @ (inverse @ rows)
+    return float(np.linalg.eigvals(operator).real.min())
+
+
+def tip_stiffness(balance: Balance, holding: NDArray[np.bool_]) -> float:
+    """Force by displacement along z at the tip's lower edge, N/mm, other holds kept."""
+    others = holding.copy()
+    others[TIP_Z] = False
+    rows = balance.tip_jacobian[others]
+    size, count = len(balance.force), len(rows)
+    across = balance.flexed(rows.T)
+    matrix = np.block([[balance.operator, -across], [rows, np.zeros((count, count))]])
+    push = balance.flexed(balance.tip_jacobian[TIP_Z][:, None])[:, 0]
+    moved = np.linalg.solve(matrix, np.concatenate([push, np.zeros(count)]))[:size]
+    flexibility = float(balance.tip_jacobian[TIP_Z] @ moved)
+    return 1 / flexibility if flexibility else np.inf
