@@ -9,8 +9,8 @@ error estimate, or a result that depends on another design's, are never taken fo
 outside of the range the material was tested in are a warning: the range is that of the tests, not
 of the material. What cannot be judged is listed, with the reason.
 
-A design may name scenes that it must hold as well (``limits.scenes``): each must be reached, stable,
-within the limit of the stress under its own load, and a grip must not slip.
+A design may name scenes that it must hold as well (``limits.scenes``): each must be reached and
+stable, keep the limit of the stress under its own load, and a grip must not slip.
 
 Where nothing speaks against a design, the leak test on a slicer's G-code may still (``leak_test``).
 """
@@ -359,7 +359,7 @@ def _slip(found: ForceCurve) -> Iterator[Reason]:
         return
     mass = getattr(found.content, "mass_g", math.nan)
     message = (
-        f"The grip slips in the scene {found.scene}: its friction holds {payload:.4g} g of {mass:g} "
-        "g."
+        f"The grip slips in the scene {found.scene}: its friction holds {payload:.4g} g of "
+        f"{mass:g} g."
     )
     yield Reason("scene", found.scene, payload, mass, "g", message)

@@ -13,7 +13,6 @@ import numpy as np
 
 from bellows_design.force.chain.balance import Unknowns
 from bellows_design.force.chain.equilibrium import solve
-from bellows_design.force.chain.finger.chain import Piece
 from bellows_design.force.chain.loaded_chain import LoadedChain
 from bellows_design.force.chain.readings import state_of, unknowns_of
 from bellows_design.force.chain.state import ChainState
@@ -81,7 +80,7 @@ def force_error(
 ) -> ForceError:
     """Estimated errors of ``force`` in an equilibrium, percent of it; zeros where it is none."""
     value = force(state)
-    if not value:
+    if not value or unknown == Uncertainty():
         return ForceError()
     everywhere, root, tip, shear = _dependences(loaded, state, force)
     percent = 100 / abs(value)
@@ -110,19 +109,17 @@ def _dependences(
     return by_turn[0], by_turn[1], by_turn[2], rigid
 
 
-def _again(
-    loaded: LoadedChain, state: ChainState, turns: Reals, shear: float = 1.0
-) -> ChainState:
+def _again(loaded: LoadedChain, state: ChainState, turns: Reals, shear: float = 1.0) -> ChainState:
     """The equilibrium beside ``state`` whose pieces turn by ``turns`` (n,) more, rad."""
+    laws: dict[tuple[int, float], ShiftedLaw] = {}
     pieces = tuple(
-        _shifted(piece, float(turn), shear)
-        for piece, turn in zip(loaded.chain.pieces, turns, strict=True)
+        replace(
+            piece,
+            law=laws.setdefault((id(piece.law), turn), ShiftedLaw(piece.law, turn, shear)),
+        )
+        for piece, turn in zip(loaded.chain.pieces, turns.tolist(), strict=True)
     )
     other = replace(loaded, chain=replace(loaded.chain, pieces=pieces))
     assert state.slip is not None
     start: Unknowns = unknowns_of(state)
     return state_of(other, state.load, solve(other, state.load, start, state.slip))
-
-
-def _shifted(piece: Piece, turn: float, shear: float) -> Piece:
-    return replace(piece, law=ShiftedLaw(piece.law, turn, shear))

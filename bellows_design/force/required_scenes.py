@@ -23,9 +23,7 @@ def required_scenes(
     store: Store | None = None,
 ) -> tuple[SceneResult, ...]:
     """Results of ``design.limits.scenes``, in their order; a scene that cannot be says why."""
-    return tuple(
-        _result(design, name, progress, budget, store) for name in design.limits.scenes
-    )
+    return tuple(_result(design, name, progress, budget, store) for name in design.limits.scenes)
 
 
 def _result(

@@ -9,9 +9,9 @@ from bellows_design.design.scenes.fields import Direction
 from bellows_design.design.scenes.grip import Grip
 from bellows_design.design.scenes.payload import Payload
 from bellows_design.design.scenes.scene import Scene
-from bellows_design.force.chain.obstacles import Disc, Obstacle, Plane, RoundedBox
+from bellows_design.force.chain.contact.obstacles import Disc, Obstacle, Plane, RoundedBox
+from bellows_design.force.chain.finger.weight import GRAVITY, Weights
 from bellows_design.force.chain.surroundings import DeadForce, Hold, Surroundings
-from bellows_design.force.chain.weight import GRAVITY, Weights
 
 DENSITY = 1.2
 """g/cm³. Of a TPU whose filament is not known; those of the shipped filaments are 1.07 to 1.22."""

@@ -32,7 +32,8 @@ SceneName = Annotated[
 ByDistance = Annotated[
     bool,
     typer.Option(
-        "--by-distance", help="Also print the force while the support moves away at the last pressure."
+        "--by-distance",
+        help="Also print the force while the support moves away.",
     ),
 ]
 Flow = Annotated[

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 
@@ -31,7 +31,7 @@ class ForceOptions:
     flow: float | None = None
     picture: Path | None = None
     plot: Path | None = None
-    limits: BudgetOptions = BudgetOptions()
+    limits: BudgetOptions = field(default_factory=BudgetOptions)
     cached: bool = True
 
     def require(self) -> None:

@@ -1,0 +1,64 @@
+"""The law of a finger's pieces, with what is known of it besides how they move."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Protocol
+
+from bellows_design.force.errors import Uncertainty
+from bellows_design.force.section_law import SectionLaw
+from solver.arrays import Reals
+
+
+class Facts(Protocol):
+    """What a law knows of a finger whose n pieces bear section loads (n, 3) at a pressure (MPa)."""
+
+    def touching(self, pressure: float, loads: Reals) -> bool:
+        """Whether neighbouring bubbles touch."""
+        ...
+
+    def stress(self, pressure: float, loads: Reals) -> tuple[float, float] | None:
+        """Highest von Mises stress, MPa, and its estimated error, percent; None if not known."""
+        ...
+
+    def unknown(self, pressure: float, loads: Reals) -> Uncertainty:
+        """Rotations that the law does not know of."""
+        ...
+
+
+@dataclass(frozen=True)
+class NoFacts:
+    """Of a law that is exact by definition: a limit with a closed form."""
+
+    def touching(self, pressure: float, loads: Reals) -> bool:
+        """Nothing touches."""
+        return False
+
+    def stress(self, pressure: float, loads: Reals) -> None:
+        """There is no stress."""
+        return None
+
+    def unknown(self, pressure: float, loads: Reals) -> Uncertainty:
+        """Nothing is unknown."""
+        return Uncertainty()
+
+
+@dataclass(frozen=True)
+class FingerLaw:
+    """The laws of a finger.
+
+    Attributes:
+        piece: Of half a bubble.
+        root_hinge: Of what the root adds, None for nothing.
+        tip_hinge: Of what the tip adds, likewise.
+        facts: What is known besides.
+        from_cache: When it was computed (UTC), where it comes from the store; else empty.
+        seconds: Time of its computation, s.
+    """
+
+    piece: SectionLaw
+    root_hinge: SectionLaw | None = None
+    tip_hinge: SectionLaw | None = None
+    facts: Facts = field(default_factory=NoFacts)
+    from_cache: str = ""
+    seconds: float = 0.0
