@@ -6,7 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bellows_design.force.chain.contact.forces import ContactForces, SlipHistory, contact_forces
+from bellows_design.force.chain.contact.forces import (
+    ContactForces,
+    ContactHistory,
+    Pressing,
+    contact_forces,
+)
 from bellows_design.force.chain.finger.kinematics import Configuration
 from bellows_design.force.chain.loaded_chain import LoadedChain
 from bellows_design.force.chain.surroundings import LoadPoint
@@ -22,16 +27,13 @@ class Unknowns:
         motions: (n, 3) in rad, mm, mm.
         loads: (n, 3) in N mm, N, N.
         held: x, z and moment at the tip's lower edge (3,) in N, N, N mm.
+        pressing: forces of objects.
     """
 
     motions: Reals
     loads: Reals
     held: Reals
-
-    @classmethod
-    def at_rest(cls, count: int) -> Unknowns:
-        """Of an undeformed chain of ``count`` pieces."""
-        return cls(np.zeros((count, 3)), np.zeros((count, 3)), np.zeros(3))
+    pressing: Pressing
 
 
 @dataclass(frozen=True)
@@ -42,6 +44,7 @@ class Balance:
         configuration: of its sections.
         response: of its pieces.
         contact: forces of objects.
+        touching: derivative of the touching points' positions by the motions (c, 2, 3 n).
         positions: of the points that objects may touch, relative to the objects (m, 2), mm.
         tip: x, z and angle of the tip's lower edge (3,).
         tip_jacobian: its derivative by the motions (3, 3 n).
@@ -52,6 +55,7 @@ class Balance:
     configuration: Configuration
     response: SectionResponse
     contact: ContactForces
+    touching: Reals
     positions: Reals
     tip: Reals
     tip_jacobian: Reals
@@ -60,7 +64,7 @@ class Balance:
 
     @classmethod
     def of(
-        cls, loaded: LoadedChain, load: LoadPoint, at: Unknowns, history: SlipHistory
+        cls, loaded: LoadedChain, load: LoadPoint, at: Unknowns, history: ContactHistory
     ) -> Balance:
         """The balance at ``at``, under ``load``, after ``history``.
 
@@ -73,7 +77,7 @@ class Balance:
         frames, size = configuration.frames, at.motions.size
         by_motions = configuration.jacobian.reshape(len(frames), 3, size)
         positions = loaded.contacts.positions(frames) - load.object_shift
-        contact = contact_forces(loaded.obstacles, positions, loaded.widths, history)
+        contact = contact_forces(loaded.obstacles, positions, loaded.widths, history, at.pressing)
         touching = loaded.contacts[contact.points]
         touched = touching.jacobian(frames, by_motions)
         carried = loaded.carriers.jacobian(frames, by_motions)
@@ -88,12 +92,13 @@ class Balance:
         pushed = np.einsum("mcd,mdj->mcj", contact.stiffness, touched).reshape(-1, size)
         stiffness = rows.T @ pushed
         stiffness -= loaded.carriers.curvature(chain, configuration, by_motions, dead)
-        stiffness -= touching.curvature(chain, configuration, by_motions, contact.force)
+        stiffness -= touching.curvature(chain, configuration, by_motions, contact.current)
         edge = loaded.carriers[np.array([-1])].positions(frames)[0]
         return cls(
             configuration,
             response,
             contact,
+            touched,
             positions,
             np.append(edge, frames[-1, 2]),
             np.concatenate([carried[-1], by_motions[-1, 2:3]]),

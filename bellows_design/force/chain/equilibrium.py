@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 
 from bellows_design.errors import BellowsError
 from bellows_design.force.chain.balance import Balance, Unknowns
-from bellows_design.force.chain.contact.forces import SlipHistory
+from bellows_design.force.chain.contact.forces import ContactHistory, Pressing
+from bellows_design.force.chain.finger.kinematics import Configuration
 from bellows_design.force.chain.loaded_chain import LoadedChain
 from bellows_design.force.chain.surroundings import LoadPoint
 from solver.arrays import Reals
@@ -26,7 +27,9 @@ SMALL_LOAD = 1e-8
 """Last correction of a section load, as part of the largest one, or in N mm and N."""
 LARGEST_TURN = 0.5
 """Of a piece in one iteration, rad."""
-HOLDING = 1.0
+LARGEST_OVERLAP = 0.02
+"""Of points that come to touch in one iteration, mm."""
+HOLDING = 0.1
 """N/mm: which of a load cell's force and its distance decides whether it is touched; any positive
 value leads to the same result."""
 
@@ -55,7 +58,7 @@ class Equilibrium:
 
 
 def solve(
-    loaded: LoadedChain, load: LoadPoint, start: Unknowns, history: SlipHistory
+    loaded: LoadedChain, load: LoadPoint, start: Unknowns, history: ContactHistory
 ) -> Equilibrium:
     """The equilibrium under ``load`` that Newton's method finds from ``start``.
 
@@ -67,10 +70,11 @@ def solve(
     for iteration in range(1, MOST_ITERATIONS + 1):
         balance = Balance.of(loaded, load, at, history)
         missing, holding = _hold(loaded, load, balance, at)
-        step = _newton_step(balance, at, missing, holding)
-        at = _moved(at, step, holding)
+        goal = _newton_goal(balance, at, missing, holding)
+        part = min(_until_turned(at, goal), _until_touched(loaded, load, balance, goal))
+        before, at = at, _towards(at, goal, part, holding)
         first = at if iteration == 1 else first
-        if _small(step, at):
+        if _near(before, goal):
             final = Balance.of(loaded, load, at, history)
             return Equilibrium(at, final, first, holding, iteration)
     raise NoEquilibriumError(f"no equilibrium was found in {MOST_ITERATIONS} iterations")
@@ -89,44 +93,93 @@ def _hold(
     return missing, holding
 
 
-def _newton_step(
+def _newton_goal(
     balance: Balance, at: Unknowns, missing: Reals, holding: NDArray[np.bool_]
 ) -> Unknowns:
-    """Corrections; those of the held forces count where they act."""
+    """Where the tangent at ``at`` leads."""
     size = at.motions.size
-    released = np.where(holding, 0.0, -at.held)
+    held = np.where(holding, at.held, 0.0)
     rows = balance.tip_jacobian[holding]
-    force = balance.force + released @ balance.tip_jacobian
-    lack = force - at.loads.ravel()
+    lack = balance.force + (held - at.held) @ balance.tip_jacobian - at.loads.ravel()
     motion_gap = (balance.response.motion - at.motions).ravel()
     matrix = np.zeros((size + len(rows), size + len(rows)))
     matrix[:size, :size] = balance.operator
     matrix[:size, size:] = -balance.flexed(rows.T)
     matrix[size:, :size] = rows
     right = np.concatenate([motion_gap + balance.flexed(lack[:, None])[:, 0], missing[holding]])
+    solution = _solution(matrix, right)
+    motions, pulls = solution[:size], solution[size:]
+    held[holding] += pulls
+    loads = lack - balance.stiffness @ motions + pulls @ rows
+    return Unknowns(
+        at.motions + motions.reshape(-1, 3),
+        at.loads + loads.reshape(-1, 3),
+        held,
+        balance.contact.pressing(at.pressing.normal.shape, balance.touching @ motions),
+    )
+
+
+def _solution(matrix: Reals, right: Reals) -> Reals:
+    """Of linear equations."""
     try:
-        solution = np.linalg.solve(matrix, right)
+        solution: Reals = np.linalg.solve(matrix, right)
     except np.linalg.LinAlgError as error:
         raise NoEquilibriumError("the tangent is singular") from error
     if not np.isfinite(solution).all():
         raise NoEquilibriumError("the tangent is singular")
-    motions, held = solution[:size], released
-    held[holding] = solution[size:]
-    loads = lack - balance.stiffness @ motions + solution[size:] @ rows
-    return Unknowns(motions.reshape(-1, 3), loads.reshape(-1, 3), held)
+    return solution
 
 
-def _moved(at: Unknowns, step: Unknowns, holding: NDArray[np.bool_]) -> Unknowns:
-    """The unknowns after a step, or the part of it that turns no piece too far."""
-    turn = np.abs(step.motions[:, 0]).max()
-    part = min(1.0, LARGEST_TURN / turn) if turn else 1.0
-    held = np.where(holding, at.held + part * step.held, 0.0)
-    return Unknowns(at.motions + part * step.motions, at.loads + part * step.loads, held)
+def _until_turned(at: Unknowns, goal: Unknowns) -> float:
+    """Part of the way to ``goal`` on which no piece turns too far."""
+    turn = float(np.abs(goal.motions[:, 0] - at.motions[:, 0]).max())
+    return LARGEST_TURN / turn if turn > LARGEST_TURN else 1.0
 
 
-def _small(step: Unknowns, at: Unknowns) -> bool:
-    """Whether a step changed nothing that counts."""
-    load = max(1.0, float(np.abs(at.loads).max()))
+def _until_touched(loaded: LoadedChain, load: LoadPoint, balance: Balance, goal: Unknowns) -> float:
+    """Part of the way to ``goal`` after which the first new points touch.
+
+    So not all those touch at once that the goal lies behind, most of which would soon let go.
+    """
+    objects = loaded.surroundings.objects
+    if not objects:
+        return 1.0
+    frames = Configuration.of(loaded.chain, goal.motions).frames
+    positions = loaded.contacts.positions(frames) - load.object_shift
+    before = np.array([each.distance(balance.positions).value for each in objects])
+    after = np.array([each.distance(positions).value for each in objects])
+    before[balance.contact.objects, balance.contact.points] = -1.0
+    new = (before >= 0) & (after < -LARGEST_OVERLAP)
+    parts = (before[new] + LARGEST_OVERLAP) / (before[new] - after[new])
+    return float(parts.min(initial=1.0))
+
+
+def _towards(at: Unknowns, goal: Unknowns, part: float, holding: NDArray[np.bool_]) -> Unknowns:
+    """The part of the way to ``goal``."""
+    if part == 1:
+        return goal
+
+    def between(start: Reals, end: Reals) -> Reals:
+        return start + part * (end - start)
+
+    pressing = Pressing(
+        between(at.pressing.normal, goal.pressing.normal),
+        between(at.pressing.friction, goal.pressing.friction),
+    )
+    return Unknowns(
+        between(at.motions, goal.motions),
+        between(at.loads, goal.loads),
+        np.where(holding, between(at.held, goal.held), 0.0),
+        pressing,
+    )
+
+
+def _near(at: Unknowns, goal: Unknowns) -> bool:
+    """Whether nothing that counts lies between."""
+    load = SMALL_LOAD * max(1.0, float(np.abs(goal.loads).max()))
+    forces = np.abs(goal.pressing.normal - at.pressing.normal)
     return bool(
-        np.abs(step.motions).max() < SMALL_MOTION and np.abs(step.loads).max() < SMALL_LOAD * load
+        np.abs(goal.motions - at.motions).max() < SMALL_MOTION
+        and np.abs(goal.loads - at.loads).max() < load
+        and forces.max(initial=0.0) < load
     )

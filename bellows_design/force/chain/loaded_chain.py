@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from bellows_design.errors import BellowsError
-from bellows_design.force.chain.contact.forces import Obstacles
+from bellows_design.force.chain.contact.model import Obstacles
 from bellows_design.force.chain.finger.chain import Chain
 from bellows_design.force.chain.finger.kinematics import Configuration
 from bellows_design.force.chain.finger.points import Points
@@ -61,6 +61,11 @@ class LoadedChain:
         """What the points may touch."""
         around = self.surroundings
         return Obstacles(around.objects, around.friction, around.contact)
+
+    @property
+    def pairs(self) -> tuple[int, int]:
+        """Numbers of objects and of points that may touch them."""
+        return len(self.surroundings.objects), len(self.widths)
 
     def dead_forces(self, load: LoadPoint) -> Reals:
         """On the carriers (k, 2), N."""

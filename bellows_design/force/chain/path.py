@@ -15,7 +15,7 @@ import numpy as np
 
 from bellows_design.errors import BellowsError
 from bellows_design.force.chain.balance import Unknowns
-from bellows_design.force.chain.contact.forces import SlipHistory
+from bellows_design.force.chain.contact.forces import ContactHistory, Pressing
 from bellows_design.force.chain.equilibrium import Equilibrium, NoEquilibriumError, solve
 from bellows_design.force.chain.finger.chain import Chain
 from bellows_design.force.chain.finger.kinematics import Configuration
@@ -116,9 +116,10 @@ def rest(loaded: LoadedChain) -> ChainState:
     if hold.pushes_only:
         shift = [min(each, 0.0) for each in shift]
     load = LoadPoint(forces=0.0, gravity=0.0, hold_shift=(shift[0], shift[1], shift[2]))
-    count = len(loaded.surroundings.objects), len(loaded.widths)
-    slip = SlipHistory(loaded.contacts.positions(frames), np.zeros(count))
-    found = solve(loaded, load, Unknowns.at_rest(len(loaded.chain.pieces)), slip)
+    none = np.zeros((len(loaded.chain.pieces), 3))
+    pressing = Pressing.none(*loaded.pairs)
+    history = ContactHistory(loaded.contacts.positions(frames), pressing.normal, pressing)
+    found = solve(loaded, load, Unknowns(none, none, np.zeros(3), pressing), history)
     return state_of(loaded, load, found)
 
 
@@ -143,9 +144,8 @@ def _go(loaded: LoadedChain, steps: list[ChainState], target: LoadPoint) -> Endi
 
 def _attempt(loaded: LoadedChain, last: ChainState, load: LoadPoint) -> ChainState | Ending:
     """The next state, or why there is none."""
-    assert last.slip is not None
     try:
-        found = solve(loaded, load, unknowns_of(last), last.slip)
+        found = solve(loaded, load, unknowns_of(last), last.history)
     except NoEquilibriumError:
         near = last.margin < NEAR_LIMIT
         return _ending("limit point" if near else "no equilibrium", load)

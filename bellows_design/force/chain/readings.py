@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from bellows_design.force.chain.balance import Unknowns
+from bellows_design.force.chain.contact.forces import ContactHistory
 from bellows_design.force.chain.equilibrium import Equilibrium
 from bellows_design.force.chain.loaded_chain import LoadedChain
 from bellows_design.force.chain.stability import stability_margin, tip_stiffness
@@ -29,19 +30,27 @@ def state_of(loaded: LoadedChain, load: LoadPoint, found: Equilibrium) -> ChainS
         held_force=(x, z, moment),
         stable=margin > 0,
         stored_energy=float(stored),
-        contact_energy=balance.contact.energy,
+        contact_energy=float(balance.contact.energy.sum()),
         iterations=found.iterations,
         volume=volume,
         margin=margin,
         tip_stiffness=tip_stiffness(balance, found.holding),
         load=load,
-        slip=balance.contact.history(balance.positions, len(loaded.surroundings.objects)),
+        history=_history(loaded, found),
     )
 
 
 def unknowns_of(state: ChainState) -> Unknowns:
     """Where the next solve starts."""
-    return Unknowns(state.motions, state.loads, np.array(state.held_force))
+    return Unknowns(state.motions, state.loads, np.array(state.held_force), state.history.pressing)
+
+
+def _history(loaded: LoadedChain, found: Equilibrium) -> ContactHistory:
+    """What contact has to know of ``found`` in the next step."""
+    contact = found.balance.contact
+    pressing = contact.pressing(loaded.pairs)
+    stiffness = loaded.surroundings.contact.stiffness * loaded.widths
+    return ContactHistory(found.balance.positions, pressing.friction / stiffness, pressing)
 
 
 def _frames(loaded: LoadedChain, found: Equilibrium) -> Reals:
@@ -60,7 +69,7 @@ def _contacts(loaded: LoadedChain, load: LoadPoint, found: Equilibrium) -> tuple
             place=float(places[each]),
             position=(float(positions[each, 0]), float(positions[each, 1])),
             force=(float(contact.force[each, 0]), float(contact.force[each, 1])),
-            normal_force=float(contact.normal_force[each]),
+            normal_force=float(contact.normal[each]),
             sticks=bool(contact.sticks[each]),
             object_index=int(contact.objects[each]),
         )

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from bellows_design.force.chain.contact.forces import SlipHistory
-from bellows_design.force.chain.surroundings import UNLOADED, LoadPoint
+from bellows_design.force.chain.contact.forces import ContactHistory
+from bellows_design.force.chain.surroundings import LoadPoint
 from solver.arrays import Reals
 
 
@@ -61,7 +61,7 @@ class ChainState:
         tip_stiffness: force by displacement along z at the tip's lower edge, N/mm: what a load cell
             there finds as it is moved. Infinite where the tip cannot move.
         load: how much of the loads acts.
-        slip: what friction knows of the steps before.
+        history: what contact knows of this state.
     """
 
     pressure: float
@@ -77,8 +77,8 @@ class ChainState:
     volume: float
     margin: float
     tip_stiffness: float
-    load: LoadPoint = UNLOADED
-    slip: SlipHistory | None = None
+    load: LoadPoint
+    history: ContactHistory
 
     @property
     def tip(self) -> tuple[float, float, float]:

@@ -61,7 +61,7 @@ class Surroundings:
         tip_moment: on the tip, N mm, positive from +x towards -z.
         gravity: direction (x, z) in which weights of the finger act, a unit vector; None for none.
         hold: of the tip.
-        contact: how objects and finger press against each other.
+        contact: how stiffly objects and finger press against each other.
 
     Raises:
         BellowsError: The coefficient of friction is negative.
@@ -113,6 +113,3 @@ class LoadPoint:
             (shift[0], shift[1]),
             (hold[0], hold[1], hold[2]),
         )
-
-
-UNLOADED = LoadPoint(forces=0.0, gravity=0.0)

@@ -1,10 +1,15 @@
-"""Forces between points of the finger and rigid objects: a smooth penalty, and Coulomb's friction.
+"""Forces between points of the finger and rigid objects: a stiff penalty, and Coulomb's friction.
 
-The penalty is the energy w φ(δ) of the penetration δ, with w the length of finger that a point
-stands for: φ'' rises from 0 to the stiffness within the onset, and stays. Friction is that of an
-elastic spring along the surface, as stiff as the penalty, that slides where its force exceeds the
-coefficient times the normal force: return mapping between steps (Simo & Laursen, Computers &
-Structures 42, 1992).
+The penalty is the energy k δ²/2 of the penetration δ, with a stiffness k in proportion to the
+length of finger that a point stands for. Friction is that of a spring along the surface, as stiff,
+that slides where its force exceeds the coefficient times the normal force (Simo & Laursen,
+Computers & Structures 42, 1992). It is measured from where the point was at the end of the step
+before, also if the point did not touch then.
+
+Normal and friction forces are unknowns of their own, that obey N = k δ and T = k u with the
+spring's stretch u: whether a point touches or slides follows from them rather than from gaps of an
+iterate (a primal-dual active set; Alart & Curnier, Computer Methods in Applied Mechanics and
+Engineering 92, 1991). So an iterate that lifts off a little does not lose its contact.
 """
 
 from __future__ import annotations
@@ -14,71 +19,90 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from bellows_design.force.chain.contact.model import ContactModel
-from bellows_design.force.chain.contact.obstacles import Distance, Obstacle
+from bellows_design.force.chain.contact.model import Obstacles
+from bellows_design.force.chain.contact.obstacles import Distance
 from bellows_design.force.chain.finger.kinematics import turned
 from solver.arrays import Reals
 
-
-@dataclass(frozen=True)
-class Obstacles:
-    """What points may touch: rigid objects, Coulomb's coefficient of friction, and how stiffly."""
-
-    objects: tuple[Obstacle, ...]
-    friction: float
-    model: ContactModel
+SOFTNESS = 0.1
+"""N/mm: how much of a gap weighs up how much of a force as it is decided whether a point touches or
+slides. Any positive value leads to the same equilibria."""
 
 
 @dataclass(frozen=True)
-class SlipHistory:
-    """Where friction's springs were at the end of the step before.
+class Pressing:
+    """Normal forces and friction forces between objects and the m points, each (objects, m), N."""
+
+    normal: Reals
+    friction: Reals
+
+    @classmethod
+    def none(cls, objects: int, points: int) -> Pressing:
+        """No forces."""
+        return cls(np.zeros((objects, points)), np.zeros((objects, points)))
+
+
+@dataclass(frozen=True)
+class ContactHistory:
+    """What contact knows of the end of the step before.
 
     Attributes:
-        positions: of the m points relative to the objects, mm.
-
-            *Shape:* (m, 2).
-        stretch: of the springs to each of the objects, mm.
-
-            *Shape:* (objects, m).
+        positions: of the m points relative to the objects (m, 2), mm.
+        stretch: of friction's springs to each of the objects (objects, m), mm.
+        pressing: forces.
     """
 
     positions: Reals
     stretch: Reals
+    pressing: Pressing
 
 
 @dataclass(frozen=True)
 class ContactForces:
-    """Forces on those c pairs of points and objects that touch.
+    """Those c pairs of points and objects that touch.
 
     Attributes:
         points: numbers of the points (c,).
         objects: numbers of the objects (c,).
-        force: on the points (c, 2), N.
+        normal: normal forces that belong to the positions (c,), N.
+        friction: friction forces that do (c,), N.
+        normal_by_position: derivative of ``normal`` (c, 2), N/mm.
+        friction_by_position: derivative of ``friction`` (c, 2), N/mm.
+        force: both together on the points (c, 2), N.
+        current: the same for the unknown forces (c, 2), N.
         stiffness: minus the derivative of ``force`` by the position (c, 2, 2), N/mm.
-        normal_force: not negative (c,), N.
         sticks: which ones friction holds (c,).
-        stretch: of friction's springs (c,), mm.
         energy: of penetrations and springs, N mm.
     """
 
     points: NDArray[np.int64]
     objects: NDArray[np.int64]
+    normal: Reals
+    friction: Reals
+    normal_by_position: Reals
+    friction_by_position: Reals
     force: Reals
+    current: Reals
     stiffness: Reals
-    normal_force: Reals
     sticks: NDArray[np.bool_]
-    stretch: Reals
-    energy: float
+    energy: Reals
 
-    def history(self, positions: Reals, object_count: int) -> SlipHistory:
-        """What the next step has to know, with the points' ``positions`` relative to objects."""
-        stretch = np.zeros((object_count, len(positions)))
-        stretch[self.objects, self.points] = self.stretch
-        return SlipHistory(positions, stretch)
+    def pressing(self, shape: tuple[int, int], moved: Reals | None = None) -> Pressing:
+        """The forces (objects, m), once the touching points have ``moved`` (c, 2) further."""
+        forces = Pressing.none(*shape)
+        way = np.zeros((len(self.points), 2)) if moved is None else moved
+        at = self.objects, self.points
+        forces.normal[at] = self.normal + (self.normal_by_position * way).sum(axis=1)
+        forces.friction[at] = self.friction + (self.friction_by_position * way).sum(axis=1)
+        return forces
 
 
 def contact_forces(
-    obstacles: Obstacles, positions: Reals, widths: Reals, history: SlipHistory
+    obstacles: Obstacles,
+    positions: Reals,
+    widths: Reals,
+    history: ContactHistory,
+    pressing: Pressing,
 ) -> ContactForces:
     """Forces on points at ``positions`` (m, 2) relative to the objects, mm.
 
@@ -86,28 +110,32 @@ def contact_forces(
         obstacles: what they may touch.
         positions: of the points, less the shift of the objects.
         widths: length of finger that every point stands for (m,), mm.
-        history: of friction.
+        history: of the step before.
+        pressing: the unknown forces.
     """
     parts = [
-        _against(obstacles, number, positions, widths, history)
+        _against(obstacles, number, positions, widths, history, pressing)
         for number in range(len(obstacles.objects))
     ]
     if not parts:
         return NO_CONTACT
-    names = ("points", "objects", "force", "stiffness", "normal_force", "sticks", "stretch")
-    joined = {name: np.concatenate([getattr(part, name) for part in parts]) for name in names}
-    return ContactForces(**joined, energy=sum(part.energy for part in parts))
+    names = vars(parts[0])
+    return ContactForces(**{name: np.concatenate([vars(p)[name] for p in parts]) for name in names})
 
 
+_NONE, _NO_NUMBERS, _NO_VECTORS = np.zeros(0), np.zeros(0, np.int64), np.zeros((0, 2))
 NO_CONTACT = ContactForces(
-    points=np.zeros(0, np.int64),
-    objects=np.zeros(0, np.int64),
-    force=np.zeros((0, 2)),
+    points=_NO_NUMBERS,
+    objects=_NO_NUMBERS,
+    normal=_NONE,
+    friction=_NONE,
+    normal_by_position=_NO_VECTORS,
+    friction_by_position=_NO_VECTORS,
+    force=_NO_VECTORS,
+    current=_NO_VECTORS,
     stiffness=np.zeros((0, 2, 2)),
-    normal_force=np.zeros(0),
     sticks=np.zeros(0, np.bool_),
-    stretch=np.zeros(0),
-    energy=0.0,
+    energy=_NONE,
 )
 
 
@@ -116,70 +144,94 @@ def _against(
     number: int,
     positions: Reals,
     widths: Reals,
-    history: SlipHistory,
+    history: ContactHistory,
+    pressing: Pressing,
 ) -> ContactForces:
     """Forces of one object."""
     distance = obstacles.objects[number].distance(positions)
-    points = np.flatnonzero(distance.value < 0)
+    stiffness = obstacles.model.stiffness * widths
+    known = pressing.normal[number]
+    weighed = known - SOFTNESS * (distance.value + known / stiffness)
+    points = np.flatnonzero(weighed > 0)
     near = Distance(*(values[points] for values in vars(distance).values()))
-    stiffness = obstacles.model.stiffness * widths[points]
-    energy, normal, slope = _penalty(obstacles.model, stiffness, -near.value)
-    outwards = near.gradient
-    force = normal[:, None] * outwards
-    tangent = slope[:, None, None] * _products(outwards, outwards)
-    tangent -= normal[:, None, None] * near.hessian
-    sticks, stretch = np.zeros(len(points), np.bool_), np.zeros(len(points))
-    if obstacles.friction:
-        moved = positions[points] - history.positions[points]
-        trial = history.stretch[number, points] + (moved * turned(outwards)).sum(axis=1)
-        limit = obstacles.friction * normal / stiffness
-        sticks = np.abs(trial) <= limit
-        stretch = np.where(sticks, trial, np.sign(trial) * limit)
-        along, by_position = _friction(
-            obstacles.friction, near, moved, stiffness, stretch, slope, sticks
-        )
-        force += along
-        tangent += by_position
-        energy += 0.5 * stiffness * stretch**2
-    return ContactForces(
-        points,
-        np.full(len(points), number),
-        force,
-        tangent,
+    stiffness, known = stiffness[points], known[points]
+    outwards, along = near.gradient, turned(near.gradient)
+    normal = -stiffness * near.value
+    by_position = -stiffness[:, None] * outwards
+    drag = _friction(
+        obstacles.friction,
+        near,
+        _Spring(
+            positions[points] - history.positions[points],
+            history.stretch[number, points],
+            pressing.friction[number, points],
+            stiffness,
+        ),
+        np.maximum(weighed[points], 0.0),
         normal,
-        sticks,
-        stretch,
-        float(energy.sum()),
+    )
+    pulled = pressing.friction[number, points]
+    return ContactForces(
+        points=points,
+        objects=np.full(len(points), number),
+        normal=normal,
+        friction=drag.force,
+        normal_by_position=by_position,
+        friction_by_position=drag.by_position,
+        force=normal[:, None] * outwards - drag.force[:, None] * along,
+        current=known[:, None] * outwards - pulled[:, None] * along,
+        stiffness=_products(along, drag.by_position)
+        - _products(outwards, by_position)
+        - known[:, None, None] * near.hessian
+        + pulled[:, None, None] * _turning(near),
+        sticks=drag.sticks,
+        energy=0.5 * (normal**2 + drag.force**2) / stiffness,
     )
 
 
-def _penalty(model: ContactModel, stiffness: Reals, depth: Reals) -> tuple[Reals, Reals, Reals]:
-    """Energy, force and its slope at penetrations ``depth`` >= 0."""
-    onset = model.onset
-    beyond = depth >= onset
-    energy = np.where(beyond, depth**2 / 2 - onset * depth / 2 + onset**2 / 6, depth**3 / 6 / onset)
-    force = np.where(beyond, depth - onset / 2, depth**2 / 2 / onset)
-    slope = np.where(beyond, 1.0, depth / onset)
-    return stiffness * energy, stiffness * force, stiffness * slope
+@dataclass(frozen=True)
+class _Spring:
+    """Friction's springs: way since the step before, stretch then, force now, stiffness."""
+
+    moved: Reals
+    stretch: Reals
+    force: Reals
+    stiffness: Reals
+
+
+@dataclass(frozen=True)
+class _Drag:
+    """Friction forces against motion along the surface."""
+
+    force: Reals
+    by_position: Reals
+    sticks: NDArray[np.bool_]
 
 
 def _friction(
-    friction: float,
-    near: Distance,
-    moved: Reals,
-    stiffness: Reals,
-    stretch: Reals,
-    slope: Reals,
-    sticks: NDArray[np.bool_],
-) -> tuple[Reals, Reals]:
-    """Force along the surface, and minus its derivative by the position."""
+    coefficient: float, near: Distance, spring: _Spring, weighed: Reals, normal: Reals
+) -> _Drag:
+    """Friction at points whose normal force is ``normal``, or ``weighed`` where it decides."""
+    count = len(normal)
+    if not coefficient:
+        return _Drag(np.zeros(count), np.zeros((count, 2)), np.zeros(count, np.bool_))
     along = turned(near.gradient)
-    turning = turned(np.swapaxes(near.hessian, 1, 2)).swapaxes(1, 2)
-    sticking = stiffness[:, None] * (along + np.einsum("cij,ci->cj", turning, moved))
-    sliding = (-friction * np.sign(stretch) * slope)[:, None] * near.gradient
-    by_position = np.where(sticks[:, None], sticking, sliding)
-    pull = stiffness * stretch
-    return -pull[:, None] * along, _products(along, by_position) + pull[:, None, None] * turning
+    stretch = spring.stretch + (spring.moved * along).sum(axis=1)
+    trial = spring.force + SOFTNESS * (stretch - spring.force / spring.stiffness)
+    sticks = np.abs(trial) <= coefficient * weighed
+    share = coefficient * np.sign(trial)
+    held = along + np.einsum("cij,ci->cj", _turning(near), spring.moved)
+    return _Drag(
+        np.where(sticks, spring.stiffness * stretch, share * normal),
+        spring.stiffness[:, None]
+        * np.where(sticks[:, None], held, -share[:, None] * near.gradient),
+        sticks,
+    )
+
+
+def _turning(near: Distance) -> Reals:
+    """Derivative of the direction along the surface by the position (c, 2, 2)."""
+    return turned(near.hessian.swapaxes(1, 2)).swapaxes(1, 2)
 
 
 def _products(first: Reals, second: Reals) -> Reals:

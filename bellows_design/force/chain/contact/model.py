@@ -4,20 +4,26 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from bellows_design.force.chain.contact.obstacles import Obstacle
+
 
 @dataclass(frozen=True)
 class ContactModel:
-    """How points of the finger's lower side press against objects.
-
-    The pressure rises with the penetration: by ``stiffness`` once it exceeds ``onset``, and with
-    its square before, so that the tangent is continuous.
+    """Points of the finger's lower side press against objects in proportion to the penetration.
 
     Attributes:
         spacing: of the points along the finger, at most, mm.
         stiffness: N/mm per mm of the finger's length.
-        onset: mm.
     """
 
     spacing: float = 0.5
-    stiffness: float = 400.0
-    onset: float = 1e-3
+    stiffness: float = 1000.0
+
+
+@dataclass(frozen=True)
+class Obstacles:
+    """What points may touch: rigid objects, Coulomb's coefficient of friction, and how stiffly."""
+
+    objects: tuple[Obstacle, ...]
+    friction: float
+    model: ContactModel

@@ -17,17 +17,23 @@ from solver.arrays import Reals
 
 def normals(angles: Reals) -> Reals:
     """Normals of sections at ``angles`` (k,): shape (k, 2)."""
-    return np.stack([np.cos(angles), -np.sin(angles)], axis=-1)
+    vectors = np.empty((*angles.shape, 2))
+    vectors[..., 0], vectors[..., 1] = np.cos(angles), -np.sin(angles)
+    return vectors
 
 
 def tangents(angles: Reals) -> Reals:
     """Derivatives of the normals by the angles: along the sections' planes, shape (k, 2)."""
-    return np.stack([-np.sin(angles), -np.cos(angles)], axis=-1)
+    vectors = np.empty((*angles.shape, 2))
+    vectors[..., 0], vectors[..., 1] = -np.sin(angles), -np.cos(angles)
+    return vectors
 
 
 def turned(vectors: Reals) -> Reals:
     """Vectors (..., 2) turned by a quarter as a normal is turned into its tangent."""
-    return np.stack([vectors[..., 1], -vectors[..., 0]], axis=-1)
+    result = np.empty_like(vectors)
+    result[..., 0], result[..., 1] = vectors[..., 1], -vectors[..., 0]
+    return result
 
 
 @dataclass(frozen=True)
