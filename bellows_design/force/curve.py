@@ -150,7 +150,7 @@ def _curve(solved: Solved, name: str, flow: float, by_distance: bool) -> ForceCu
         scene=name,
         content=solved.scene,
         converged=ending is None,
-        message="" if ending is None else f"{ending.sentence}.",
+        message="" if ending is None else f"{ending.sentence.rstrip('.')}.",
         curve=curve,
         by_distance=away.readings,
         tip_stiffness_n_per_mm=readings.tip_stiffness(last),

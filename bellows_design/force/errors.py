@@ -11,7 +11,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from bellows_design.force.chain.balance import Unknowns
 from bellows_design.force.chain.equilibrium import solve
 from bellows_design.force.chain.loaded_chain import LoadedChain
 from bellows_design.force.chain.readings import state_of, unknowns_of
@@ -120,6 +119,5 @@ def _again(loaded: LoadedChain, state: ChainState, turns: Reals, shear: float = 
         for piece, turn in zip(loaded.chain.pieces, turns.tolist(), strict=True)
     )
     other = replace(loaded, chain=replace(loaded.chain, pieces=pieces))
-    assert state.slip is not None
-    start: Unknowns = unknowns_of(state)
-    return state_of(other, state.load, solve(other, state.load, start, state.slip))
+    found = solve(other, state.load, unknowns_of(state), state.history)
+    return state_of(other, state.load, found)

@@ -89,7 +89,7 @@ class Readings:
             max_von_mises_mpa=stress,
             max_von_mises_error_percent=stress_error,
             error=force_error(self.loaded, state, force, unknown) if blocked else None,
-            shape=_shape(state),
+            shape=self._shape(state),
             touched=self._touched(state),
             holds=holds,
             largest_payload_g=payload,
@@ -135,13 +135,14 @@ class Readings:
         grams = 1e3 * largest_payload(self.scene, obstacle, state) / GRAVITY
         return grams >= self.scene.mass_g, grams
 
+    def _shape(self, state: ChainState) -> tuple[Point, ...]:
+        """The lower side, about every mm."""
+        positions = self.loaded.contacts.positions(state.frames[1:-1])
+        return tuple((float(x), float(z)) for x, z in [*positions[:-1:2], positions[-1]])
+
     def _touched(self, state: ChainState) -> tuple[Point, ...]:
         points = tuple(point.position for point in state.contacts)
         return (*points, state.tip[:2]) if any(state.held_force) else points
-
-
-def _shape(state: ChainState) -> tuple[Point, ...]:
-    return tuple((float(x), float(z)) for x, z in state.frames[:, :2])
 
 
 def _moment(point: ContactPoint, tip: Wrench) -> float:
