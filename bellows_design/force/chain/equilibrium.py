@@ -122,7 +122,7 @@ def _newton_goal(
 def _solution(matrix: Reals, right: Reals) -> Reals:
     """Of linear equations."""
     try:
-        solution: Reals = np.linalg.solve(matrix, right)
+        solution = np.asarray(np.linalg.solve(matrix, right), dtype=np.float64)
     except np.linalg.LinAlgError as error:
         raise NoEquilibriumError("the tangent is singular") from error
     if not np.isfinite(solution).all():

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from bellows_design.errors import BellowsError
 from bellows_design.force.chain.contact.model import ContactModel
@@ -97,6 +97,10 @@ class LoadPoint:
     gravity: float = 1.0
     object_shift: tuple[float, float] = (0.0, 0.0)
     hold_shift: tuple[float, float, float] = (0.0, 0.0, 0.0)
+
+    def shifted(self, shift: tuple[float, float]) -> LoadPoint:
+        """The same with the objects displaced by ``shift`` (x, z in mm)."""
+        return replace(self, object_shift=shift)
 
     def towards(self, other: LoadPoint, fraction: float) -> LoadPoint:
         """The point at ``fraction`` of the straight way to ``other``."""

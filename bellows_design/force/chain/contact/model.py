@@ -16,7 +16,7 @@ class ContactModel:
         stiffness: N/mm per mm of the finger's length.
     """
 
-    spacing: float = 0.5
+    spacing: float = 0.1
     stiffness: float = 1000.0
 
 
