@@ -6,20 +6,22 @@ import math
 from dataclasses import dataclass
 from functools import partial
 
-import numpy as np
-
 from bellows_design.design.design import Design
 from bellows_design.design.scenes.blocked import Blocked
 from bellows_design.design.scenes.grip import Grip
 from bellows_design.design.scenes.scene import Scene
-from bellows_design.force.chain.contact.obstacles import Obstacle
 from bellows_design.force.chain.finger.weight import GRAVITY
+from bellows_design.force.chain.grip import Pull, pulled
 from bellows_design.force.chain.loaded_chain import LoadedChain
+from bellows_design.force.chain.path import Path
 from bellows_design.force.chain.state import ChainState, ContactPoint
 from bellows_design.force.dead_volume import dead_volume
 from bellows_design.force.errors import force_error
 from bellows_design.force.finger_law import FingerLaw
 from bellows_design.force.result import ForceReading, Point
+
+PULL = Pull(step=0.5)
+"""How an object is pulled: the largest force that is met counts."""
 
 Wrench = tuple[float, float, float]
 """x and z of a force (N) and a moment about y (N mm), positive from +x towards -z."""
@@ -44,19 +46,6 @@ def force_of(scene: Scene, state: ChainState) -> float:
     return math.hypot(x, z)
 
 
-def largest_payload(scene: Grip, obstacle: Obstacle, state: ChainState) -> float:
-    """Weight that all fingers hold with their present normal forces, N.
-
-    Every point pushes the object along the normal and, by friction, at most the coefficient times
-    as much along the surface; both count as far as they pull towards the roots.
-    """
-    positions = np.array([point.position for point in state.contacts]).reshape(-1, 2)
-    normals = obstacle.distance(positions - state.load.object_shift).gradient
-    forces = np.array([point.normal_force for point in state.contacts])
-    pull = forces @ (normals[:, 0] + scene.friction * np.abs(normals[:, 1]))
-    return scene.fingers * max(0.0, float(pull))
-
-
 @dataclass(frozen=True)
 class Readings:
     """What turns a state of a finger in its scene into a record."""
@@ -67,14 +56,14 @@ class Readings:
     loaded: LoadedChain
 
     def of(self, state: ChainState) -> ForceReading:
-        """The record of ``state``."""
+        """The record of ``state``; of a grip once the object's weight pulls, if it is held."""
+        state, holds, payload = self._gripping(state)
         facts, loads = self.law.facts, state.loads
         x, z, moment = exerted(state)
         force = partial(force_of, self.scene)
         unknown = facts.unknown(state.pressure, loads)
         blocked = isinstance(self.scene, Blocked | Grip)
         stress, stress_error = facts.stress(state.pressure, loads) or (None, None)
-        holds, payload = self._grip(state)
         return ForceReading(
             pressure_mpa=state.pressure,
             distance_mm=self.distance(state) if isinstance(self.scene, Blocked) else None,
@@ -127,13 +116,15 @@ class Readings:
         blocked = isinstance(self.scene, Blocked) and force_of(self.scene, state) > 0
         return state.tip_stiffness if blocked and not state.contacts else None
 
-    def _grip(self, state: ChainState) -> tuple[bool | None, float | None]:
-        """Whether friction holds the object, and the largest mass that it would, g."""
+    def _gripping(self, state: ChainState) -> tuple[ChainState, bool | None, float | None]:
+        """The state under the object's weight, whether it is held, and the largest mass (g)."""
         if not isinstance(self.scene, Grip):
-            return None, None
-        (obstacle,) = self.loaded.surroundings.objects
-        grams = 1e3 * largest_payload(self.scene, obstacle, state) / GRAVITY
-        return grams >= self.scene.mass_g, grams
+            return state, None, None
+        fingers, mass = self.scene.fingers, self.scene.mass_g
+        found = pulled(self.loaded, Path((state,), (state,), None), PULL)
+        held = found.under(1e-3 * GRAVITY * mass / fingers)
+        grams = 1e3 * fingers * found.largest_force / GRAVITY
+        return held or state, grams >= mass, grams
 
     def _shape(self, state: ChainState) -> tuple[Point, ...]:
         """The lower side, about every mm."""
