@@ -12,13 +12,16 @@ LENGTH, BENDING = 50.0, 800.0
 
 
 def law_of(length: float, curvature_by_pressure: float = 0.0, stretch: float = 0.0) -> LinearLaw:
-    """A beam of bending stiffness ``BENDING`` that curls with pressure; stiff in shear."""
+    """A beam of bending stiffness ``BENDING`` that curls with pressure; stiff in shear.
+
+    Its volume grows enough for the stored energy to be positive.
+    """
     return LinearLaw(
         length,
         np.diag([length / BENDING, stretch * length, 0.0]),
         np.array([curvature_by_pressure * length, 0.0, 0.0]),
         volume_at_rest=20.0 * length,
-        volume_by_pressure=30.0 * length,
+        volume_by_pressure=(30.0 + BENDING * curvature_by_pressure**2) * length,
     )
 
 

@@ -7,6 +7,7 @@ from typing import TypeAlias
 
 import numpy as np
 
+from bellows_design.errors import BellowsError
 from solver.arrays import Reals
 
 
@@ -30,7 +31,7 @@ class Plane:
     """A wall through ``point`` (x, z in mm), whose ``normal``, of any length, points into the open.
 
     Raises:
-        ValueError: The normal is zero.
+        BellowsError: The normal is zero.
     """
 
     point: tuple[float, float]
@@ -38,7 +39,7 @@ class Plane:
 
     def __post_init__(self) -> None:
         if not np.hypot(*self.normal) > 0:
-            raise ValueError("normal = (0, 0) of a plane gives no direction")
+            raise BellowsError("normal = (0, 0) of a plane gives no direction")
 
     def distance(self, points: Reals) -> Distance:
         """Of ``points`` (k, 2)."""
@@ -52,7 +53,7 @@ class Disc:
     """A cylinder across the finger, or a sphere in its plane of symmetry: ``radius`` in mm.
 
     Raises:
-        ValueError: The radius is not positive.
+        BellowsError: The radius is not positive.
     """
 
     centre: tuple[float, float]
@@ -60,7 +61,7 @@ class Disc:
 
     def __post_init__(self) -> None:
         if not self.radius > 0:
-            raise ValueError(f"radius = {self.radius:g} mm of a disc must be positive")
+            raise BellowsError(f"radius = {self.radius:g} mm of a disc must be positive")
 
     def distance(self, points: Reals) -> Distance:
         """Of ``points`` (k, 2)."""
@@ -75,7 +76,7 @@ class RoundedBox:
     the surface has no normal at a sharp one.
 
     Raises:
-        ValueError: The corner's radius is not positive, or does not fit.
+        BellowsError: The corner's radius is not positive, or does not fit.
     """
 
     centre: tuple[float, float]
@@ -85,7 +86,7 @@ class RoundedBox:
 
     def __post_init__(self) -> None:
         if not 0 < self.corner_radius <= min(self.half_sizes):
-            raise ValueError(
+            raise BellowsError(
                 f"corner_radius = {self.corner_radius:g} mm of a box must be positive and at most "
                 f"half of its smaller side, {min(self.half_sizes):g} mm"
             )
