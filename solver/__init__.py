@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from solver.paths.neighbouring import Neighbouring, neighbouring
     from solver.paths.volume.control import inflate
     from solver.problem.contacts import Contact, RigidPlane
-    from solver.problem.loads import BodyForce, Couple, PointForce, Traction
+    from solver.problem.loads import AxialForce, BodyForce, Couple, PointForce, Traction
     from solver.problem.problem import Problem, SlenderAxis
     from solver.problem.springs import FoundationSpring, NodeSpring
     from solver.problem.supports import Supports
@@ -40,10 +40,12 @@ if TYPE_CHECKING:
     from solver.results.work import Work, work
     from solver.sensitivity.gradients import Gradients, ResponseGradient, gradients
     from solver.sensitivity.materials import constant_changes, material_derivatives
+    from solver.sensitivity.section.response import SectionDerivatives, section_response
     from solver.sensitivity.sensitivities import Sensitivities, sensitivities
     from solver.sensitivity.smooth_peak import SmoothPeak
 
 __all__ = [
+    "AxialForce",
     "BodyForce",
     "Checkpoint",
     "Contact",
@@ -66,6 +68,7 @@ __all__ = [
     "Reaction",
     "ResponseGradient",
     "RigidPlane",
+    "SectionDerivatives",
     "Sensitivities",
     "SlenderAxis",
     "SmoothPeak",
@@ -89,6 +92,7 @@ __all__ = [
     "potential",
     "reaction",
     "rotation",
+    "section_response",
     "sensitivities",
     "solve",
     "strain_energy",
@@ -114,7 +118,7 @@ __getattr__ = imported_when_asked_for(
         "nonlinear.events": ("Event",),
         "nonlinear.options": ("SolverOptions",),
         "paths.volume.control": ("inflate",),
-        "problem.loads": ("BodyForce", "Couple", "PointForce", "Traction"),
+        "problem.loads": ("AxialForce", "BodyForce", "Couple", "PointForce", "Traction"),
         "problem.contacts": ("Contact", "RigidPlane"),
         "problem.problem": ("Problem", "SlenderAxis"),
         "problem.springs": ("FoundationSpring", "NodeSpring"),
@@ -128,6 +132,7 @@ __getattr__ = imported_when_asked_for(
         "results.work": ("Work", "work"),
         "sensitivity.gradients": ("Gradients", "ResponseGradient", "gradients"),
         "sensitivity.materials": ("constant_changes", "material_derivatives"),
+        "sensitivity.section.response": ("SectionDerivatives", "section_response"),
         "sensitivity.sensitivities": ("Sensitivities", "sensitivities"),
         "sensitivity.smooth_peak": ("SmoothPeak",),
         "results.stress": ("Peak", "nodal_cauchy", "nodal_von_mises", "peak_von_mises"),

@@ -13,6 +13,7 @@ from solver.assembly.free_rim import FreeRim
 from solver.assembly.layout import Layout
 from solver.assembly.moving_plane import MovingPlane
 from solver.assembly.pressure import pressure_facets
+from solver.assembly.section import SectionLoads
 from solver.assembly.springs import Springs
 from solver.assembly.state import State
 from solver.kernels.assembly import Places, assemble, assemble_plane, total_energy
@@ -22,7 +23,7 @@ from solver.kernels.stress import extrapolated_stress
 from solver.linear.sparsity import Pattern
 from solver.mesh.checks import check_elements
 from solver.mesh.elements import tetrahedron_rule
-from solver.problem.loads import couple, nodal_forces
+from solver.problem.loads import nodal_forces
 from solver.problem.problem import Problem
 from solver.problem.springs import stiffness_matrix
 from solver.problem.supports import Supports
@@ -77,9 +78,8 @@ class Assembly:
         self.plane = None if surface is None else MovingPlane.of(mesh, surface)
         self._solid = solid(problem)
         self._facets = pressure_facets(mesh, self.layout.triangles, *self.layout.facets)
-        self.dead_force = self.numbering.gather(nodal_forces(mesh, problem.loads))
-        if self.plane is not None:
-            self.dead_force[self.numbering.plane[0]] += couple(problem.loads)
+        self._nodal_force = self.numbering.gather(nodal_forces(mesh, problem.loads))
+        self._section_loads = SectionLoads.of(problem, self.numbering, self.pattern)
         self.springs = Springs.of(problem, self.numbering, self.pattern)
         still = np.zeros(mesh.nodes.shape) if start is None else start
         self._rim = FreeRim.of(problem, self.numbering, self.pattern, still)
@@ -104,11 +104,19 @@ class Assembly:
         values = np.zeros(len(self.pattern.indices) if tangent else 0)
         smallest = self._add_solid(state, tangent, residual, values)
         self._add_pressure(state, pressure, tangent, force, values)
-        residual += pressure * force - load * self.dead_force
+        residual += pressure * force - load * self.dead_force(state)
+        if tangent and self._section_loads is not None:
+            self._section_loads.add_tangent(state, load, values)
         self._add_springs(state, tangent, residual, values)
         values, pattern = self.contacts.add(state, tangent, residual, values, load)
         skew = self._skew(state, pressure) if tangent else np.zeros(0)
         return Equilibrium(residual, force, values, smallest, pattern, skew)
+
+    def dead_force(self, state: State) -> Reals:
+        """Forces (m,) of the whole dead loads on the unknowns: on a moving plane, as it stands."""
+        if self._section_loads is None:
+            return self._nodal_force
+        return self._nodal_force + self._section_loads.force(state)
 
     @property
     def symmetric(self) -> bool:

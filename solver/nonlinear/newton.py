@@ -304,7 +304,7 @@ class Newton:
         The part of prescribed motions is a difference quotient: only predictors use it.
         """
         loading = self.loading
-        fixed_forces = self.assembly.dead_force
+        fixed_forces = self.assembly.dead_force(state)
         if len(self.fading_force):
             fixed_forces = fixed_forces - self.fading_force
         rate: Reals = loading.pressure_rate * equilibrium.force - loading.share_rate * fixed_forces

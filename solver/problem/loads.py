@@ -75,31 +75,51 @@ class Couple:
     moment: float
 
 
-Load: TypeAlias = Traction | BodyForce | PointForce | Couple
+@dataclass(frozen=True)
+class AxialForce:
+    """A dead force along x on the problem's moving plane, at its section's origin.
+
+    That is the plane's point that lies as far below the section's mean height as z = 0 does in the
+    undeformed body; the force is spread evenly over the section (``solver.assembly.section``).
+
+    Attributes:
+        force: N; positive pulls the plane along +x.
+    """
+
+    force: float
+
+
+Load: TypeAlias = Traction | BodyForce | PointForce | Couple | AxialForce
 
 LOAD_KINDS: tuple[type, ...] = get_args(Load)
 
+PLANE_LOADS = (Couple, AxialForce)
+"""Kinds of loads that act on a moving plane."""
+
 
 def nodal_forces(mesh: Mesh, loads: Sequence[Load]) -> Reals:
-    """Consistent nodal forces (n, 3) in N of all ``loads`` but the couples.
+    """Consistent nodal forces (n, 3) in N of all ``loads`` but those on a moving plane.
 
     Raises ``SolverError`` for an unknown surface, a point force on no node, or a value that is not
     a finite vector.
     """
     forces = np.zeros(mesh.nodes.shape)
     for load in loads:
-        if not isinstance(load, Couple):
+        if not isinstance(load, PLANE_LOADS):
             forces += _forces(mesh, load)
     return forces
 
 
 def check_loads(loads: Sequence[Load], moving_plane: str | None) -> None:
-    """Raise ``SolverError`` unless couples, and only they, go with a moving plane."""
-    couples = [isinstance(load, Couple) for load in loads]
-    if moving_plane is None and any(couples):
-        raise SolverError("loads: a couple needs a moving plane to act on.")
-    if moving_plane is not None and not all(couples):
-        raise SolverError("loads: a cell with a moving plane takes pressure only, besides couples.")
+    """Raise ``SolverError`` unless couples and axial forces, and only they, meet a moving plane."""
+    on_plane = [isinstance(load, PLANE_LOADS) for load in loads]
+    if moving_plane is None and any(on_plane):
+        raise SolverError("loads: a couple or an axial force needs a moving plane to act on.")
+    if moving_plane is not None and not all(on_plane):
+        raise SolverError(
+            "loads: a cell with a moving plane takes pressure only, besides couples and axial "
+            "forces."
+        )
 
 
 def loaded_surfaces(loads: Sequence[Load]) -> tuple[str, ...]:
@@ -107,15 +127,29 @@ def loaded_surfaces(loads: Sequence[Load]) -> tuple[str, ...]:
     return tuple(load.surface for load in loads if isinstance(load, Traction))
 
 
-def couple(loads: Sequence[Load]) -> float:
-    """Sum of the couples on the moving plane, N mm; ``SolverError`` if it is not finite."""
-    couples = [load for load in loads if isinstance(load, Couple)]
-    for load in couples:
-        check_number("load: a couple's moment", load.moment)
-    moment = math.fsum(load.moment for load in couples)
-    if not math.isfinite(moment):
-        raise SolverError(f"load: a couple's moment must be a finite number of N mm, got {moment}.")
-    return moment
+def plane_loads(loads: Sequence[Load]) -> Reals:
+    """Couple (N mm) and axial force (N) on the moving plane's section, (2,).
+
+    Raises ``SolverError`` if they are not finite.
+    """
+    couples = [load.moment for load in loads if isinstance(load, Couple)]
+    forces = [load.force for load in loads if isinstance(load, AxialForce)]
+    return np.array(
+        [
+            _sum("load: a couple's moment", couples, "N mm"),
+            _sum("load: an axial force", forces, "N"),
+        ]
+    )
+
+
+def _sum(what: str, values: Sequence[float], unit: str) -> float:
+    """Sum of numbers; ``SolverError`` if it is not finite."""
+    for value in values:
+        check_number(what, value)
+    total = math.fsum(values)
+    if not math.isfinite(total):
+        raise SolverError(f"{what} must be a finite number of {unit}, got {total}.")
+    return total
 
 
 def _forces(mesh: Mesh, load: Traction | BodyForce | PointForce) -> Reals:

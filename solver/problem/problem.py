@@ -54,11 +54,12 @@ class Problem:
         material: its hyperelastic law.
         supports: displacement boundary conditions.
         pressurised: names of the surfaces under pressure.
-        loads: dead loads; with a moving plane couples only.
+        loads: dead loads; with a moving plane couples and axial forces only.
         axis: if given, increments are applied as finite rotations along it (``SlenderMotion``).
         moving_plane: name of a plane surface normal to x that stays plane, free to rotate about y
             and to shift along x: the section between two cells of a uniform chain. It carries the
-            resultant of the pressure in the cavity beyond it (``MovingPlane``), and the couples.
+            resultant of the pressure in the cavity beyond it (``MovingPlane``), couples and axial
+            forces.
         sharp_edge_radius: mm; stresses nearer than that to an edge at which the ideal body's are
             unbounded are left out of peaks (``solver.results.sharp_edges``).
         contacts: surfaces that may not cross planes of symmetry or rigid planes, some of which

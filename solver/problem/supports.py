@@ -203,7 +203,7 @@ def _vectors(surface: str, given: object) -> Reals:
 def pin(mesh: Mesh, moving_plane: str) -> int:
     """The node of a moving plane whose height in the plane is fixed: the first of the least z.
 
-    Nothing else holds a cell along z. As no load acts along the plane, the reaction is zero.
+    Nothing else holds a cell along z. As no load acts along z, the reaction is zero.
     """
     nodes = mesh.surface_nodes(moving_plane)
     return int(nodes[mesh.nodes[nodes, 2].argmin()])

@@ -14,10 +14,11 @@ import numpy as np
 from solver.assembly.assembly import solid
 from solver.assembly.contact import contact_pairs
 from solver.assembly.free_rim import free_edges, place_of
+from solver.assembly.section import section_work
 from solver.assembly.swept_volume import swept_volume
 from solver.errors import SolverError
 from solver.kernels.assembly import total_energy
-from solver.problem.loads import couple, nodal_forces
+from solver.problem.loads import nodal_forces
 from solver.problem.springs import stiffness_matrix
 from solver.results.solution import Solution, check_solution
 
@@ -114,4 +115,4 @@ def _dead_work(solution: Solution) -> float:
     if len(solution.remaining_force):
         forces += solution.remaining_force
     work = float((forces * solution.displacement).sum())
-    return work + load * couple(loads) * solution.plane[0]
+    return work + load * section_work(solution.problem, solution.state)

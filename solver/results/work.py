@@ -11,12 +11,13 @@ import numpy as np
 from solver.arrays import Reals
 from solver.assembly.assembly import unbalanced_forces
 from solver.assembly.contact import contact_pairs
+from solver.assembly.section import Section
 from solver.assembly.state import State
 from solver.assembly.swept_volume import swept_volume
 from solver.errors import SolverError
 from solver.input_types import members_of
 from solver.problem.contacts import RigidPlane
-from solver.problem.loads import couple, nodal_forces
+from solver.problem.loads import nodal_forces, plane_loads
 from solver.problem.problem import Problem
 from solver.problem.supports import fixed_displacements
 from solver.results.solution import Solution
@@ -80,7 +81,8 @@ class _Station:
     """What does work at a state.
 
     ``dead`` and ``supports``: nodal forces (n, 3), N; ``planes``: forces (k, 3) of rigid planes and
-    their places; ``couple``: that on the moving plane, N mm, and its tilt.
+    their places; ``section``: couple (N mm) and axial force (N) on the moving plane (2,), and what
+    they work on: tilt and displacement of the section's origin.
     """
 
     problem: Problem
@@ -89,7 +91,7 @@ class _Station:
     dead: Reals
     supports: Reals
     planes: tuple[Reals, Reals]
-    couple: tuple[float, float]
+    section: tuple[Reals, Reals]
 
     @staticmethod
     def at_rest(problem: Problem) -> _Station:
@@ -98,7 +100,7 @@ class _Station:
             np.zeros(problem.mesh.nodes.shape),
             _planes(problem, State.zero(problem), 0.0),
         )
-        return _Station(problem, 0.0, none, none, none, planes, (0.0, 0.0))
+        return _Station(problem, 0.0, none, none, none, planes, (np.zeros(2), np.zeros(2)))
 
     @staticmethod
     def of(solution: Solution) -> _Station:
@@ -111,8 +113,14 @@ class _Station:
             dead=load * nodal_forces(problem.mesh, problem.loads) + _remaining(solution),
             supports=_support_forces(solution),
             planes=_planes(problem, state, load),
-            couple=(load * couple(problem.loads), float(state.plane[0])),
+            section=(load * plane_loads(problem.loads), _section_motion(problem, state)),
         )
+
+
+def _section_motion(problem: Problem, state: State) -> Reals:
+    """Tilt and displacement of the origin of the section in the moving plane (2,)."""
+    section = Section.of(problem)
+    return np.zeros(2) if section is None else section.motion(state)
 
 
 def _support_forces(solution: Solution) -> Reals:
@@ -148,8 +156,8 @@ def _parts(a: _Station, b: _Station) -> Reals:
     before, after = (swept_volume(s.problem, a.displacement, b.displacement) for s in (a, b))
     pressure = a.pressure * before[0] + b.pressure * after[1]
     loads = (a.dead + b.dead) * moved
-    couples = (a.couple[0] + b.couple[0]) * (b.couple[1] - a.couple[1])
+    section = (a.section[0] + b.section[0]) * (b.section[1] - a.section[1])
     supports = (a.supports + b.supports) * moved
     planes = (a.planes[0] + b.planes[0]) * (b.planes[1] - a.planes[1])
-    halves = [loads.sum() + couples, supports.sum(), planes.sum()]
+    halves = [loads.sum() + section.sum(), supports.sum(), planes.sum()]
     return np.array([pressure, *(part / 2 for part in halves)])

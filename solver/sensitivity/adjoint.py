@@ -17,7 +17,7 @@ from solver.assembly.assembly import Assembly, Equilibrium
 from solver.errors import SolverError
 from solver.linear.interface import SingularMatrix
 from solver.nonlinear.linear_system import LinearSystem
-from solver.results.solution import Solution
+from solver.results.solution import Solution, check_solution
 from solver.sensitivity.work import Equilibrated
 
 ENOUGH = 1e-10
@@ -153,6 +153,21 @@ class TangentSystem:
 def inner(one: Reals, other: Reals) -> float:
     """Scalar product; not by BLAS, whose threads wait longer than such vectors take."""
     return float((one * other).sum())
+
+
+def check_equilibrium(solution: Solution) -> None:
+    """Raise ``SolverError`` unless a solution is an equilibrium at the whole load of one stage."""
+    check_solution(solution)
+    if not solution.converged:
+        raise SolverError(
+            f"sensitivities: the solution did not converge ({solution.message.rstrip('.')}); "
+            "derivatives belong to an equilibrium at the whole load."
+        )
+    if len(solution.remaining_force):
+        raise SolverError(
+            "sensitivities: the equilibrium lies between two stages of loading; derivatives of "
+            "what the stage before has left are not known."
+        )
 
 
 SINGULAR = (

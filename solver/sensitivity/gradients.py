@@ -25,8 +25,8 @@ from solver.mesh.mesh import Mesh
 from solver.problem.problem import Problem
 from solver.problem.supports import prescribed_motion
 from solver.results.sharp_edges import trusted_nodes
-from solver.results.solution import Solution, check_solution
-from solver.sensitivity.adjoint import TangentSystem, Workspace, inner
+from solver.results.solution import Solution
+from solver.sensitivity.adjoint import TangentSystem, Workspace, check_equilibrium, inner
 from solver.sensitivity.reach import reach_of
 from solver.sensitivity.responses import Response, available, response
 from solver.sensitivity.smooth_peak import SHARPNESS, PeakRegion, SmoothPeak
@@ -146,7 +146,7 @@ def gradients(
         SolverError: a solution that is not converged, a response that it does not have, or a
             tangent that is singular.
     """
-    _check_solution(solution)
+    check_equilibrium(solution)
     check_number("sensitivities: sharpness", sharpness)
     if not 1 < sharpness < np.inf:
         raise SolverError(f"sensitivities: sharpness = {sharpness:g} must be above 1 and finite.")
@@ -242,20 +242,6 @@ def _given_rate(problem: Problem, load: float, velocity: Reals) -> Reals:
         nodes = mesh.surface_nodes(surface)
         rate[nodes] = np.where(np.isnan(there), rate[nodes], (there - back) / (2 * step))
     return rate
-
-
-def _check_solution(solution: Solution) -> None:
-    check_solution(solution)
-    if not solution.converged:
-        raise SolverError(
-            f"sensitivities: the solution did not converge ({solution.message.rstrip('.')}); "
-            "derivatives belong to an equilibrium at the whole load."
-        )
-    if len(solution.remaining_force):
-        raise SolverError(
-            "sensitivities: the equilibrium lies between two stages of loading; derivatives of "
-            "what the stage before has left are not known."
-        )
 
 
 def _checked_names(problem: Problem, responses: Sequence[str]) -> tuple[str, ...]:

@@ -9,9 +9,11 @@ from __future__ import annotations
 import numpy as np
 
 from solver.arrays import Reals
+from solver.assembly.section import Section
+from solver.assembly.state import State
 from solver.mesh.elements import tetrahedron_rule
 from solver.mesh.mesh import Mesh
-from solver.problem.loads import BodyForce, Field, Traction
+from solver.problem.loads import BodyForce, Field, Traction, plane_loads
 from solver.problem.problem import Problem
 from solver.problem.springs import FoundationSpring
 from solver.sensitivity.surface_integrals import (
@@ -21,6 +23,7 @@ from solver.sensitivity.surface_integrals import (
     spread,
     summed,
 )
+from solver.sensitivity.unknowns import Direction
 
 STEP = 1e-6
 """Of the difference quotients of a load's function, in body diagonals."""
@@ -35,6 +38,26 @@ def load_derivative(problem: Problem, along: Reals) -> Reals:
         elif isinstance(load, BodyForce):
             total += _of_body_force(problem.mesh, load, along)
     return total
+
+
+def section_derivative(problem: Problem, state: State, direction: Direction) -> Reals:
+    """Derivative (n, 3) of the work of the whole axial force on a section along a direction, N.
+
+    The force is spread over the undeformed section, which alone depends on positions: a mean f over
+    the area A changes by the change of the integral of f minus f times that of A, both over A.
+    """
+    section, axial = Section.of(problem), plane_loads(problem.loads)[1]
+    if section is None or not axial:
+        return np.zeros_like(state.displacement)
+    mesh, surface = problem.mesh, str(problem.moving_plane)
+    triangles = mesh.triangles(surface)
+    moves = np.zeros_like(state.displacement)
+    moves[section.plane.nodes, 0] = section.moves(state, direction.displacement, direction.plane)
+    density = at_points(moves, triangles)[..., 0]
+    sizes = areas(mesh.nodes, triangles)
+    area, mean = sizes.sum(), (sizes * density).sum() / sizes.sum()
+    change: Reals = axial / area * area_derivative(mesh.nodes, triangles, density - mean)
+    return change
 
 
 def spring_derivative(problem: Problem, displacement: Reals, along: Reals) -> Reals:

@@ -28,7 +28,7 @@ SHORT = 0.02
 def reach_of(system: TangentSystem) -> float | None:
     """Change of pressure and dead loads, as a fraction of them; None without any load."""
     assembly, at = system.at.assembly, system.at
-    rate = at.pressure * system.equilibrium.force - at.load * assembly.dead_force
+    rate = at.pressure * system.equilibrium.force - at.load * assembly.dead_force(at.state)
     if not rate.any():
         return None
     first, _ = system.solve(-rate)
@@ -57,7 +57,7 @@ def _residual(system: TangentSystem, direction: Reals, step: float) -> Reals:
     there = moved(assembly, at.state, step * direction)
     share = 1 + step
     found = assembly.evaluate(there, share * at.pressure, tangent=False, load=at.load)
-    residual: Reals = found.residual - step * at.load * assembly.dead_force
+    residual: Reals = found.residual - step * at.load * assembly.dead_force(there)
     return residual
 
 

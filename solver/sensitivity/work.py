@@ -24,7 +24,7 @@ from solver.kernels.element import Solid
 from solver.kernels.shape_derivatives import work_derivatives
 from solver.problem.unknowns import Numbering, number_unknowns
 from solver.sensitivity.contact_work import contact_derivatives
-from solver.sensitivity.load_work import load_derivative, spring_derivative
+from solver.sensitivity.load_work import load_derivative, section_derivative, spring_derivative
 from solver.sensitivity.surface_integrals import (
     at_points,
     flux_derivative,
@@ -96,7 +96,8 @@ def _of_forces(at: Equilibrated, direction: Direction) -> Derivatives:
             at.assembly.springs.forces(direction.displacement),
         )
     if problem.loads:
-        dead = at.load * load_derivative(problem, direction.displacement)
+        nodal = load_derivative(problem, direction.displacement)
+        dead = at.load * (nodal + section_derivative(problem, at.state, direction))
         both = both - Derivatives(dead, np.zeros_like(dead))
     return both
 

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
 from solver import (
+    AxialForce,
     Couple,
     Mesh,
     Ogden,
@@ -346,10 +347,11 @@ def test_couples_and_other_loads_are_refused_where_they_cannot_act(
     box: Meshes, ninjaflex: Ogden
 ) -> None:
     mesh, push = box((1, 1, 1)), PointForce((1.0, 1.0, 1.0), (0.0, 0.0, 1.0))
-    with pytest.raises(ValueError, match="a couple needs a moving plane"):
+    with pytest.raises(ValueError, match="a couple or an axial force needs a moving plane"):
         Problem(mesh, ninjaflex, Supports(clamped=("x0",)), loads=(Couple(1.0),))
     with pytest.raises(ValueError, match="pressure only, besides couples"):
         Problem(mesh, ninjaflex, MIDDLES, loads=(push,), moving_plane="x1")
-    problem = Problem(mesh, ninjaflex, MIDDLES, loads=(Couple(np.nan),), moving_plane="x1")
-    with pytest.raises(ValueError, match="moment must be a finite number"):
-        solve(problem)
+    for bad, words in ((Couple(np.nan), "moment must be a f"), (AxialForce(np.inf), "force must")):
+        problem = Problem(mesh, ninjaflex, MIDDLES, loads=(bad,), moving_plane="x1")
+        with pytest.raises(ValueError, match=words):
+            solve(problem)

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from resolved import TIGHT, by_pressure, by_velocity
 
 from solver import (
+    AxialForce,
     BodyForce,
     Contact,
     Couple,
@@ -42,7 +43,7 @@ SOFT = Ogden.yeoh(0.5, 0.03, bulk_modulus=20.0)
 RIVLIN = MooneyRivlin(0.4, 0.05, 0.02, 0.01, 0.0, bulk_modulus=50.0)
 
 
-def cell(*loads: Couple) -> Solution:
+def cell(*loads: Couple | AxialForce) -> Solution:
     problem = Problem(
         bellows_cell_mesh(), OGDEN, Supports(symmetry={"x0": 0, "y0": 1}), ("cavity",),
         moving_plane="x1", loads=loads,
@@ -132,6 +133,7 @@ def swollen_tube() -> Solution:
 BODIES: dict[str, Callable[[], Solution]] = {
     "cell": cell,
     "cell with a couple": lambda: cell(Couple(-1.0)),
+    "cell with an axial force": lambda: cell(Couple(0.3), AxialForce(0.5)),
     "cell that touches its image": touching_cell,
     "actuator": actuator,
     "bar under dead loads": loaded_bar,

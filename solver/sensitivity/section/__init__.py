@@ -1,0 +1,1 @@
+"""How a section answers to the loads on it: by the tangent of an equilibrium."""
