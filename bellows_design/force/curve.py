@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -16,22 +15,18 @@ from bellows_design.design.scenes.grip import Grip
 from bellows_design.design.scenes.scene import Scene
 from bellows_design.errors import DesignError
 from bellows_design.force.air import FLOW, Air, air_of_stroke
-from bellows_design.force.chain.finger.chain import Chain
-from bellows_design.force.chain.loaded_chain import LoadedChain
-from bellows_design.force.chain.path import Path, follow
+from bellows_design.force.chain.path import Path
 from bellows_design.force.chain.state import ChainState
-from bellows_design.force.distances import Distances, moved_away
 from bellows_design.force.finger_law import FingerLaw
-from bellows_design.force.readings import Readings, force_of
+from bellows_design.force.law_of_design import solved_with_its_law
 from bellows_design.force.result import ForceCurve, Seconds
-from bellows_design.force.surroundings import surroundings_of, weights_of
+from bellows_design.force.scene.distances import Distances, moved_away
+from bellows_design.force.scene.readings import Readings, force_of
+from bellows_design.force.scene.solved import Solved
 from bellows_design.progress import SILENCE, Progress
 
 if TYPE_CHECKING:
     from bellows_design.store.store import Store
-
-STROKE_STEPS = 16
-"""At least so many steps of pressure make a stroke: its work is a sum over them."""
 
 
 def force_curve(
@@ -70,68 +65,10 @@ def force_curve(
         MeshingError: No usable mesh of the cell, or none in time.
     """
     if law is None:
-        from bellows_design.force.law_of_design import solved_with_its_law
-
         solved = solved_with_its_law(design, scene, pressures, progress, budget, store)
     else:
         solved = Solved.of(design, scene, pressures, law)
     return _curve(solved, name or scene.kind, flow, by_distance)
-
-
-@dataclass(frozen=True)
-class Solved:
-    """The path of a finger in a scene.
-
-    Attributes:
-        design: The finger.
-        scene: What stands around it.
-        pressures: Asked for, MPa.
-        law: Of its pieces.
-        loaded: The chain in its surroundings.
-        path: Its equilibria.
-        seconds: Time spent on the path, s.
-    """
-
-    design: Design
-    scene: Scene
-    pressures: tuple[float, ...]
-    law: FingerLaw
-    loaded: LoadedChain
-    path: Path
-    seconds: float
-
-    @classmethod
-    def of(cls, design: Design, scene: Scene, pressures: Sequence[float], law: FingerLaw) -> Solved:
-        """Follow the path from rest to the last pressure."""
-        started = time.perf_counter()
-        chain = Chain.of(
-            design.bellows,
-            law.piece,
-            root_hinge=law.root_hinge,
-            tip_hinge=law.tip_hinge,
-            weights=weights_of(design),
-        )
-        surroundings = surroundings_of(scene, design.bellows)
-        path = follow(chain, surroundings, _with_steps(pressures))
-        loaded = LoadedChain.of(chain, surroundings)
-        seconds = time.perf_counter() - started
-        return cls(design, scene, tuple(pressures), law, loaded, path, seconds)
-
-    @property
-    def states(self) -> tuple[ChainState, ...]:
-        """At the pressures asked for, and the last good one where the path ended before."""
-        asked = [s for s in self.path.states if np.isclose(s.pressure, self.pressures).any()]
-        return (*asked, self.path.last) if self.path.ending else tuple(asked)
-
-
-def _with_steps(pressures: Sequence[float]) -> list[float]:
-    """The pressures, and others between them that make a stroke of enough steps."""
-    longest, found, last = abs(pressures[-1]) / STROKE_STEPS, [], 0.0
-    for pressure in pressures:
-        count = max(1, int(np.ceil(abs(pressure - last) / longest - 1e-9)))
-        found += [*np.linspace(last, pressure, count + 1)[1:-1].tolist(), pressure]
-        last = pressure
-    return found
 
 
 def _curve(solved: Solved, name: str, flow: float, by_distance: bool) -> ForceCurve:

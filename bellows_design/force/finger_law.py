@@ -5,9 +5,29 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Protocol
 
-from bellows_design.force.errors import Uncertainty
 from bellows_design.force.section_law import SectionLaw
 from solver.arrays import Reals
+
+
+@dataclass(frozen=True)
+class Uncertainty:
+    """Rotations that the law does not know of, rad.
+
+    Attributes:
+        interpolation: Of every piece, between the points of the law's table.
+        mesh: Of every piece, by the cell's mesh.
+        neighbours: Of every piece, by contact with a mirror image while the moment varies.
+        root: Of the root's end.
+        tip: Of the tip's end.
+        shear: Fraction of the pieces' shear compliance.
+    """
+
+    interpolation: float = 0.0
+    mesh: float = 0.0
+    neighbours: float = 0.0
+    root: float = 0.0
+    tip: float = 0.0
+    shear: float = 0.0
 
 
 class Facts(Protocol):

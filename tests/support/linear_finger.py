@@ -7,8 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from bellows_design.design import Design, load_design
-from bellows_design.force.errors import Uncertainty
-from bellows_design.force.finger_law import FingerLaw
+from bellows_design.force.finger_law import FingerLaw, Uncertainty
 from bellows_design.force.section_law import LinearLaw
 from solver.arrays import Reals
 

@@ -13,9 +13,10 @@ from bellows_design.design.scenes.free import Free
 from bellows_design.design.scenes.grip import Grip
 from bellows_design.design.scenes.payload import Payload
 from bellows_design.errors import DesignError
-from bellows_design.force.curve import Solved, force_curve
-from bellows_design.force.errors import Uncertainty
+from bellows_design.force.curve import force_curve
+from bellows_design.force.finger_law import Uncertainty
 from bellows_design.force.result import ForceCurve
+from bellows_design.force.scene.solved import Solved
 from bellows_design.force.section_law import LinearLaw, SectionResponse
 from solver.arrays import Reals
 

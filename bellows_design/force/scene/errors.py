@@ -15,33 +15,13 @@ from bellows_design.force.chain.equilibrium import solve
 from bellows_design.force.chain.loaded_chain import LoadedChain
 from bellows_design.force.chain.readings import state_of, unknowns_of
 from bellows_design.force.chain.state import ChainState
+from bellows_design.force.finger_law import Uncertainty
 from bellows_design.force.result import ForceError
 from bellows_design.force.section_law import SectionLaw, SectionResponse
 from solver.arrays import Reals
 
 SMALL_TURN = 1e-4
 """rad, of one piece: by which the force's dependence is found."""
-
-
-@dataclass(frozen=True)
-class Uncertainty:
-    """Rotations that the law does not know of, rad.
-
-    Attributes:
-        interpolation: Of every piece, between the points of the law's table.
-        mesh: Of every piece, by the cell's mesh.
-        neighbours: Of every piece, by contact with a mirror image while the moment varies.
-        root: Of the root's end.
-        tip: Of the tip's end.
-        shear: Fraction of the pieces' shear compliance.
-    """
-
-    interpolation: float = 0.0
-    mesh: float = 0.0
-    neighbours: float = 0.0
-    root: float = 0.0
-    tip: float = 0.0
-    shear: float = 0.0
 
 
 @dataclass(frozen=True)

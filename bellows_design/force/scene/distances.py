@@ -11,8 +11,8 @@ from bellows_design.design.scenes.blocked import Blocked
 from bellows_design.force.chain.path import follow_loads
 from bellows_design.force.chain.state import ChainState
 from bellows_design.force.chain.surroundings import LoadPoint
-from bellows_design.force.readings import Readings, force_of
 from bellows_design.force.result import ForceReading
+from bellows_design.force.scene.readings import Readings, force_of
 
 INTERVALS = 10
 """From the support's place to where the finger would leave it by its first stiffness."""
@@ -54,7 +54,10 @@ def _states(readings: Readings, start: ChainState) -> tuple[list[ChainState], tu
         path = follow_loads(readings.loaded, states[-1], [_away(states[-1].load, step)])
         if path.ending is not None:
             where = readings.distance(path.last)
-            return states, (f"from a distance of {where:.3g} mm on the tip snaps off its support.",)
+            more = path.steps[-1:] if len(path.steps) > 1 else ()
+            return [*states, *more], (
+                f"from a distance of {where:.3g} mm on the tip snaps off its support.",
+            )
         if not force_of(readings.scene, path.last) > 0:
             return [*states, _just_left(readings, path.last)], ()
         states.append(path.last)

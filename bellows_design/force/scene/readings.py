@@ -15,10 +15,10 @@ from bellows_design.force.chain.grip import Pull, pulled
 from bellows_design.force.chain.loaded_chain import LoadedChain
 from bellows_design.force.chain.path import Path
 from bellows_design.force.chain.state import ChainState, ContactPoint
-from bellows_design.force.dead_volume import dead_volume
-from bellows_design.force.errors import force_error
 from bellows_design.force.finger_law import FingerLaw
 from bellows_design.force.result import ForceReading, Point
+from bellows_design.force.scene.dead_volume import dead_volume
+from bellows_design.force.scene.errors import force_error
 
 PULL = Pull(step=0.5)
 """How an object is pulled: the largest force that is met counts."""
