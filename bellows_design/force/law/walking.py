@@ -1,0 +1,129 @@
+"""A row of the table by continuation in the moment: first a walk both ways, then refinement."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+from bellows_design.force.law.continuation import Continuation, Solved
+from bellows_design.force.law.rows import Row, doubt, meeting
+
+GROWTH = 2.0
+"""Largest ratio of a step in the moment to the one before."""
+
+IN_CONTACT = 2
+"""So many points with touching neighbours a walk takes at least, to know how stiff they are."""
+
+FARTHEST = 60
+"""Points of a walk in one direction, at most."""
+
+MOST_POINTS = 60
+"""Of a row that is refined."""
+
+
+@dataclass(frozen=True)
+class Aim:
+    """How far a row goes, and how fine it is; all in rad.
+
+    ``low`` and ``high``: rotations that it passes. ``step``: of the rotation from point to point on
+    the first walk. ``tolerance``: of the interpolated rotation.
+    """
+
+    low: float
+    high: float
+    step: float
+    tolerance: float
+
+
+@dataclass(frozen=True)
+class SolvedRow:
+    """A row whose states are known: by ascending moment, with the reasons of ``Row.ends``."""
+
+    solved: tuple[Solved, ...]
+    ends: tuple[str, str] = ("", "")
+
+    @property
+    def row(self) -> Row:
+        """Without the states."""
+        return Row(tuple(each.point for each in self.solved), self.ends)
+
+    def with_solved(self, *more: Solved) -> SolvedRow:
+        """The row with further points; those that it has at the same moments stay."""
+        known = {each.point.moment for each in self.solved}
+        added = [each for each in more if each.point.moment not in known]
+        ordered = sorted((*self.solved, *added), key=lambda each: each.point.moment)
+        return replace(self, solved=tuple(ordered))
+
+    def nearest(self, moment: float) -> Solved:
+        """The point nearest to a moment (N mm)."""
+        return min(self.solved, key=lambda each: abs(each.point.moment - moment))
+
+
+def walked(cell: Continuation, start: SolvedRow, aim: Aim) -> SolvedRow:
+    """From a row's ends on, until the rotation passes those of the aim or no state is found."""
+    down, below = _walk(cell, start.solved[0], aim, -1.0, lambda walk: _low_enough(walk, aim))
+    up, above = _walk(
+        cell, start.solved[-1], aim, 1.0, lambda walk: walk[-1].point.rotation >= aim.high
+    )
+    ends = (start.ends[0] or below, start.ends[1] or above)
+    return replace(start.with_solved(*down, *up), ends=ends)
+
+
+def _low_enough(walk: list[Solved], aim: Aim) -> bool:
+    """Whether the rotation has passed the lower one, and neighbours touch if they ever do."""
+    end = walk[-1].point
+    if end.rotation > aim.low:
+        return False
+    touching = sum(each.point.touches for each in walk)
+    return end.gap is None or touching >= IN_CONTACT or end.rotation < aim.low - aim.high
+
+
+def _walk(
+    cell: Continuation,
+    start: Solved,
+    aim: Aim,
+    direction: float,
+    done: Callable[[list[Solved]], bool],
+) -> tuple[list[Solved], str]:
+    """Points from ``start`` (included) in one direction, and why there are no more."""
+    walk, last = [start], float("inf")
+    while not done(walk) and len(walk) < FARTHEST:
+        point = walk[-1].point
+        last = min(aim.step / point.compliance, GROWTH * last)
+        found = cell.beside(walk[-1], point.pressure, point.moment + direction * last)
+        if isinstance(found, str):
+            return walk, found
+        walk.append(found)
+    return walk, ""
+
+
+def refined(cell: Continuation, row: SolvedRow, aim: Aim) -> SolvedRow:
+    """With points between those of a row, as long as its interpolation is in doubt."""
+    settled: set[tuple[float, float]] = set()
+    while len(row.solved) < MOST_POINTS:
+        pair = _worst(row, aim, settled)
+        if pair is None:
+            break
+        below, above = pair
+        moment = meeting(below.point, above.point)
+        found = cell.beside(row.nearest(moment), below.point.pressure, moment)
+        if isinstance(found, str):
+            settled.add((below.point.moment, above.point.moment))
+        else:
+            row = row.with_solved(found)
+    return row
+
+
+def _worst(
+    row: SolvedRow, aim: Aim, settled: set[tuple[float, float]]
+) -> tuple[Solved, Solved] | None:
+    """The two neighbours between which interpolation is most in doubt, more than tolerated."""
+    pairs = [
+        pair
+        for pair in zip(row.solved, row.solved[1:], strict=False)
+        if (pair[0].point.moment, pair[1].point.moment) not in settled
+    ]
+    worst = max(pairs, key=lambda pair: doubt(pair[0].point, pair[1].point), default=None)
+    if worst is None or doubt(worst[0].point, worst[1].point) <= aim.tolerance:
+        return None
+    return worst
