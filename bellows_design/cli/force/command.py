@@ -39,8 +39,8 @@ ByDistance = Annotated[
 Flow = Annotated[
     float | None,
     typer.Option(
-        metavar="L/MIN",
-        help="Constant flow of free air through the valve, litres per minute; without it 10.",
+        metavar="LITRES",
+        help="Constant flow of free air through the valve, a minute; without it 10.",
     ),
 ]
 Picture = Annotated[
