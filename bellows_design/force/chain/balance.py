@@ -78,30 +78,28 @@ class Balance:
         by_motions = configuration.jacobian.reshape(len(frames), 3, size)
         positions = loaded.contacts.positions(frames) - load.object_shift
         contact = contact_forces(loaded.obstacles, positions, loaded.widths, history, at.pressing)
-        touching = loaded.contacts[contact.points]
-        touched = touching.jacobian(frames, by_motions)
-        carried = loaded.carriers.jacobian(frames, by_motions)
+        points = loaded.loaded_points(contact.points)
+        moved = points.jacobian(frames, by_motions)
         dead = loaded.dead_forces(load)
         dead[-1] += at.held[:2]
+        count = len(dead)
+        force = np.einsum("mcj,mc->j", moved, np.concatenate([dead, contact.force]))
         moment = load.forces * loaded.surroundings.tip_moment + at.held[2]
-        force = np.einsum("mcj,mc->j", carried, dead) + np.einsum(
-            "mcj,mc->j", touched, contact.force
-        )
         force += moment * by_motions[-1, 2]
-        rows = touched.reshape(-1, size)
-        pushed = np.einsum("mcd,mdj->mcj", contact.stiffness, touched).reshape(-1, size)
+        rows = moved[count:].reshape(-1, size)
+        pushed = np.matmul(contact.stiffness, moved[count:]).reshape(-1, size)
+        current = np.concatenate([dead, contact.current])
         stiffness = rows.T @ pushed
-        stiffness -= loaded.carriers.curvature(chain, configuration, by_motions, dead)
-        stiffness -= touching.curvature(chain, configuration, by_motions, contact.current)
+        stiffness -= points.curvature(chain, configuration, by_motions, current)
         edge = loaded.carriers[np.array([-1])].positions(frames)[0]
         return cls(
             configuration,
             response,
             contact,
-            touched,
+            moved[count:],
             positions,
             np.append(edge, frames[-1, 2]),
-            np.concatenate([carried[-1], by_motions[-1, 2:3]]),
+            np.concatenate([moved[count - 1], by_motions[-1, 2:3]]),
             force,
             stiffness,
         )

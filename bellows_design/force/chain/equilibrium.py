@@ -57,10 +57,29 @@ class Equilibrium:
     iterations: int
 
 
+@dataclass(frozen=True)
+class Drag:
+    """Resistance against motion since a moment before: so many times the pieces' own stiffness.
+
+    Attributes:
+        motions: at that moment (n, 3).
+        rate: the factor, the inverse of the time since then.
+    """
+
+    motions: Reals
+    rate: float
+
+
 def solve(
-    loaded: LoadedChain, load: LoadPoint, start: Unknowns, history: ContactHistory
+    loaded: LoadedChain,
+    load: LoadPoint,
+    start: Unknowns,
+    history: ContactHistory,
+    drag: Drag | None = None,
 ) -> Equilibrium:
     """The equilibrium under ``load`` that Newton's method finds from ``start``.
+
+    With ``drag`` it is that of a moment of a slow motion.
 
     Raises:
         NoEquilibriumError: It does not arrive.
@@ -70,7 +89,7 @@ def solve(
     for iteration in range(1, MOST_ITERATIONS + 1):
         balance = Balance.of(loaded, load, at, history)
         missing, holding = _hold(loaded, load, balance, at)
-        goal = _newton_goal(balance, at, missing, holding)
+        goal = _newton_goal(balance, at, missing, holding, drag)
         part = min(_until_turned(at, goal), _until_touched(loaded, load, balance, goal))
         before, at = at, _towards(at, goal, part, holding)
         first = at if iteration == 1 else first
@@ -78,6 +97,22 @@ def solve(
             final = Balance.of(loaded, load, at, history)
             return Equilibrium(at, final, first, holding, iteration)
     raise NoEquilibriumError(f"no equilibrium was found in {MOST_ITERATIONS} iterations")
+
+
+def beside(
+    loaded: LoadedChain, load: LoadPoint, start: Unknowns, history: ContactHistory
+) -> Equilibrium:
+    """Where the tangent at ``start`` leads: the equilibrium beside it, to first order.
+
+    For a chain that differs by little from the one that ``start`` is an equilibrium of.
+
+    Raises:
+        NoEquilibriumError: The tangent is singular.
+    """
+    balance = Balance.of(loaded, load, start, history)
+    missing, holding = _hold(loaded, load, balance, start)
+    goal = _newton_goal(balance, start, missing, holding, None)
+    return Equilibrium(goal, Balance.of(loaded, load, goal, history), goal, holding, 1)
 
 
 def _hold(
@@ -94,7 +129,11 @@ def _hold(
 
 
 def _newton_goal(
-    balance: Balance, at: Unknowns, missing: Reals, holding: NDArray[np.bool_]
+    balance: Balance,
+    at: Unknowns,
+    missing: Reals,
+    holding: NDArray[np.bool_],
+    drag: Drag | None,
 ) -> Unknowns:
     """Where the tangent at ``at`` leads."""
     size = at.motions.size
@@ -104,6 +143,9 @@ def _newton_goal(
     motion_gap = (balance.response.motion - at.motions).ravel()
     matrix = np.zeros((size + len(rows), size + len(rows)))
     matrix[:size, :size] = balance.operator
+    if drag:
+        motion_gap -= drag.rate * (at.motions - drag.motions).ravel()
+        matrix[:size, :size] += drag.rate * np.eye(size)
     matrix[:size, size:] = -balance.flexed(rows.T)
     matrix[size:, :size] = rows
     right = np.concatenate([motion_gap + balance.flexed(lack[:, None])[:, 0], missing[holding]])
@@ -146,8 +188,8 @@ def _until_touched(loaded: LoadedChain, load: LoadPoint, balance: Balance, goal:
         return 1.0
     frames = Configuration.of(loaded.chain, goal.motions).frames
     positions = loaded.contacts.positions(frames) - load.object_shift
-    before = np.array([each.distance(balance.positions).value for each in objects])
-    after = np.array([each.distance(positions).value for each in objects])
+    before = np.array([each.gap(balance.positions) for each in objects])
+    after = np.array([each.gap(positions) for each in objects])
     before[balance.contact.objects, balance.contact.points] = -1.0
     new = (before >= 0) & (after < -LARGEST_OVERLAP)
     parts = (before[new] + LARGEST_OVERLAP) / (before[new] - after[new])

@@ -57,6 +57,7 @@ class Grip:
         pull: how the object is pulled.
         pulled: states along the pull, from the closed finger on.
         ending: why the pull ended before the finger let go, if by its equilibrium.
+        jumps: where the finger jumped while the object was pulled.
         let_go: whether the force fell to half of its largest value; otherwise a longer pull may
             find a larger one.
     """
@@ -67,6 +68,7 @@ class Grip:
     pulled: tuple[ChainState, ...]
     ending: Ending | None
     let_go: bool
+    jumps: tuple[Ending, ...] = ()
 
     @property
     def curve(self) -> tuple[tuple[float, float], ...]:
@@ -138,7 +140,7 @@ def grip(
     Raises:
         BellowsError: An object reaches into the undeformed finger.
     """
-    closing = follow(chain, surroundings, pressures)
+    closing = follow(chain, surroundings, pressures, jumps=True)
     return pulled(LoadedChain.of(chain, surroundings), closing, pull or Pull())
 
 
@@ -147,20 +149,24 @@ def pulled(loaded: LoadedChain, closing: Path, pull: Pull) -> Grip:
     if closing.ending:
         return Grip(loaded, closing, pull, (), None, False)
     states, ending = [closing.last], None
+    jumps: list[Ending] = []
+    longest = pull.longest + 1e-9
     while not _let_go(states, pull) and ending is None:
         way = pull.way(states[-1]) + pull.step
-        if way > pull.longest + 1e-9:
-            return Grip(loaded, closing, pull, tuple(states), None, False)
+        if way > longest:
+            break
         path = _moved(loaded, states[-1], pull, way)
         states.extend(path.steps[1:])
+        jumps.extend(path.jumps)
         ending = path.ending
-    return Grip(loaded, closing, pull, tuple(states), ending, ending is None)
+    released = _let_go(states, pull)
+    return Grip(loaded, closing, pull, tuple(states), ending, released, tuple(jumps))
 
 
 def _moved(loaded: LoadedChain, start: ChainState, pull: Pull, way: float) -> Path:
     """The path from ``start`` until the objects are ``way`` mm along the pull."""
     shift = pull.direction[0] * way, pull.direction[1] * way
-    return follow_loads(loaded, start, [start.load.shifted(shift)])
+    return follow_loads(loaded, start, [start.load.shifted(shift)], jumps=True)
 
 
 def _let_go(states: Sequence[ChainState], pull: Pull) -> bool:

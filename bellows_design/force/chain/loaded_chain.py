@@ -10,7 +10,7 @@ from bellows_design.errors import BellowsError
 from bellows_design.force.chain.contact.model import Obstacles
 from bellows_design.force.chain.finger.chain import Chain
 from bellows_design.force.chain.finger.kinematics import Configuration
-from bellows_design.force.chain.finger.points import Points
+from bellows_design.force.chain.finger.points import Indices, Points
 from bellows_design.force.chain.surroundings import LoadPoint, Surroundings
 from solver.arrays import Reals
 
@@ -71,6 +71,13 @@ class LoadedChain:
         """On the carriers (k, 2), N."""
         return load.forces * self.dead + load.gravity * self.weights
 
+    def loaded_points(self, touching: Indices) -> Points:
+        """The carriers, then those of ``contacts`` that touch."""
+        parts = zip(
+            vars(self.carriers).values(), vars(self.contacts[touching]).values(), strict=True
+        )
+        return Points(*(np.concatenate(each) for each in parts))
+
     @property
     def at_rest(self) -> Configuration:
         """Where the undeformed sections are."""
@@ -107,7 +114,7 @@ def _require_clear(loaded: LoadedChain) -> None:
     for number, each in enumerate(loaded.surroundings.objects, 1):
         for fraction in np.linspace(0, 1, DEPTHS):
             points = Points.of(chain, places, fraction * tops)
-            depth = -each.distance(points.positions(frames)).value
+            depth = -each.gap(points.positions(frames))
             if depth.max() > 1e-6:
                 raise BellowsError(
                     f"object {number} reaches {depth.max():.3g} mm into the undeformed finger, "

@@ -8,7 +8,7 @@ the step is halved, down to a part of the way that decides nothing.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -21,6 +21,7 @@ from bellows_design.force.chain.finger.chain import Chain
 from bellows_design.force.chain.finger.kinematics import Configuration
 from bellows_design.force.chain.loaded_chain import LoadedChain
 from bellows_design.force.chain.readings import state_of, unknowns_of
+from bellows_design.force.chain.settling import settled
 from bellows_design.force.chain.state import ChainState
 from bellows_design.force.chain.surroundings import LoadPoint, Surroundings
 
@@ -31,6 +32,8 @@ LARGEST_CORRECTION = 0.1
 that it is none."""
 FEW_ITERATIONS = 8
 """After so many or fewer the next step is twice as long."""
+MOST_JUMPS = 20
+"""On one path."""
 NEAR_LIMIT = 0.1
 """Margin of stability below which a lack of equilibria is ascribed to a limit point."""
 
@@ -39,7 +42,7 @@ Cause = Literal["instability", "limit point", "jump", "law", "no equilibrium"]
 
 @dataclass(frozen=True)
 class Ending:
-    """Why a path ended before its last load.
+    """Why a branch ended before the path's last load.
 
     Attributes:
         cause: ``instability``: equilibria go on, but are unstable; ``limit point``: there is none
@@ -48,7 +51,7 @@ class Ending:
             equilibrium``: Newton's method found none.
         sentence: the same for users.
         load: where no more equilibrium was found.
-        beyond: a stable equilibrium at ``load`` to which the finger would jump, if one was found.
+        beyond: the stable equilibrium at ``load`` in which the finger comes to rest, if found.
     """
 
     cause: Cause
@@ -59,17 +62,19 @@ class Ending:
 
 @dataclass(frozen=True)
 class Path:
-    """Stable equilibria of one branch.
+    """Stable equilibria, of one branch where no jumps are told of.
 
     Attributes:
         states: at the wanted loads, as far as they were reached.
         steps: all of the way, from the first to the last good one.
         ending: why not all wanted loads were reached; None if they were.
+        jumps: ends of branches from which the finger was followed to another one, as was asked.
     """
 
     states: tuple[ChainState, ...]
     steps: tuple[ChainState, ...]
     ending: Ending | None
+    jumps: tuple[Ending, ...] = ()
 
     @property
     def last(self) -> ChainState:
@@ -77,31 +82,48 @@ class Path:
         return self.steps[-1]
 
 
-def follow(chain: Chain, surroundings: Surroundings, pressures: Sequence[float]) -> Path:
+def follow(
+    chain: Chain, surroundings: Surroundings, pressures: Sequence[float], *, jumps: bool = False
+) -> Path:
     """States at ``pressures`` (MPa), after dead forces, weights and holds without pressure.
+
+    The path ends where its branch does, or goes on where the finger comes to rest if ``jumps``.
 
     Raises:
         BellowsError: A dead force is not on the finger, or an object reaches into the undeformed
             finger.
     """
     loaded = LoadedChain.of(chain, surroundings)
-    first = follow_loads(loaded, rest(loaded), [LoadPoint()])
+    first = follow_loads(loaded, rest(loaded), [LoadPoint()], jumps=jumps)
     if first.ending:
-        return Path((), first.steps, first.ending)
-    path = follow_loads(loaded, first.last, [LoadPoint(float(each)) for each in pressures])
-    return Path(path.states, (*first.steps, *path.steps[1:]), path.ending)
+        return Path((), first.steps, first.ending, first.jumps)
+    wanted = [LoadPoint(float(each)) for each in pressures]
+    path = follow_loads(loaded, first.last, wanted, jumps=jumps)
+    steps = (*first.steps, *path.steps[1:])
+    return Path(path.states, steps, path.ending, first.jumps + path.jumps)
 
 
-def follow_loads(loaded: LoadedChain, start: ChainState, wanted: Sequence[LoadPoint]) -> Path:
-    """The branch from ``start``, an equilibrium of ``loaded``, straight to each of ``wanted``."""
-    steps = [start]
-    states: list[ChainState] = []
+def follow_loads(
+    loaded: LoadedChain,
+    start: ChainState,
+    wanted: Sequence[LoadPoint],
+    *,
+    jumps: bool = False,
+) -> Path:
+    """The branch from ``start``, an equilibrium of ``loaded``, straight to each of ``wanted``.
+
+    It ends where the branch does, or goes on where the finger comes to rest if ``jumps``.
+    """
+    steps, states = [start], list[ChainState]()
+    left: list[Ending] = []
     for target in wanted:
-        ending = _go(loaded, steps, target)
-        if ending:
-            return Path(tuple(states), tuple(steps), ending)
+        while ending := _go(loaded, steps, target):
+            if not jumps or ending.beyond is None or len(left) == MOST_JUMPS:
+                return Path(tuple(states), tuple(steps), ending, tuple(left))
+            left.append(ending)
+            steps.append(ending.beyond)
         states.append(steps[-1])
-    return Path(tuple(states), tuple(steps), None)
+    return Path(tuple(states), tuple(steps), None, tuple(left))
 
 
 def rest(loaded: LoadedChain) -> ChainState:
@@ -136,10 +158,17 @@ def _go(loaded: LoadedChain, steps: list[ChainState], target: LoadPoint) -> Endi
             done = fraction
             step *= 2 if outcome.iterations <= FEW_ITERATIONS else 1
         elif step <= SMALLEST_STEP:
-            return outcome
+            return _with_rest(loaded, steps[-1], outcome)
         else:
             step = min(step, 1 - done) / 2
     return None
+
+
+def _with_rest(loaded: LoadedChain, last: ChainState, ending: Ending) -> Ending:
+    """The ending, with the state in which the finger comes to rest."""
+    if ending.cause == "law":
+        return ending
+    return replace(ending, beyond=settled(loaded, last, ending.load))
 
 
 def _attempt(loaded: LoadedChain, last: ChainState, load: LoadPoint) -> ChainState | Ending:
@@ -155,7 +184,7 @@ def _attempt(loaded: LoadedChain, last: ChainState, load: LoadPoint) -> ChainSta
     if not state.stable:
         return _ending("instability", load)
     if _corrected(loaded, found) > LARGEST_CORRECTION:
-        return _ending("jump", load, state)
+        return _ending("jump", load)
     return state
 
 
@@ -173,5 +202,5 @@ SENTENCES: dict[str, str] = {
 }
 
 
-def _ending(cause: Cause, load: LoadPoint, beyond: ChainState | None = None) -> Ending:
-    return Ending(cause, f"at {load.pressure:.4g} MPa {SENTENCES[cause]}", load, beyond)
+def _ending(cause: Cause, load: LoadPoint) -> Ending:
+    return Ending(cause, f"at {load.pressure:.4g} MPa {SENTENCES[cause]}", load)

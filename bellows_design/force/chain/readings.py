@@ -36,7 +36,7 @@ def state_of(loaded: LoadedChain, load: LoadPoint, found: Equilibrium) -> ChainS
         margin=margin,
         tip_stiffness=tip_stiffness(balance, found.holding),
         load=load,
-        history=_history(loaded, found),
+        history=history_of(loaded, found),
     )
 
 
@@ -45,7 +45,7 @@ def unknowns_of(state: ChainState) -> Unknowns:
     return Unknowns(state.motions, state.loads, np.array(state.held_force), state.history.pressing)
 
 
-def _history(loaded: LoadedChain, found: Equilibrium) -> ContactHistory:
+def history_of(loaded: LoadedChain, found: Equilibrium) -> ContactHistory:
     """What contact has to know of ``found`` in the next step."""
     contact = found.balance.contact
     pressing = contact.pressing(loaded.pairs)

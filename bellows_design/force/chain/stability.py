@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bellows_design.force.chain.balance import Balance
+from solver.arrays import Reals
 
 TIP_Z = 1
 
@@ -22,14 +23,25 @@ def stability_margin(balance: Balance, holding: NDArray[np.bool_]) -> float:
     compliance = np.linalg.eigvalsh(balance.response.compliance)
     if (compliance.min(axis=1) < -1e-9 * compliance.max(axis=1)).any():
         return -np.inf
+    return float(np.linalg.eigvals(_free_operator(balance, holding)).real.min())
+
+
+def least_stable_motion(balance: Balance, holding: NDArray[np.bool_]) -> Reals:
+    """The eigenvector of that eigenvalue (n, 3), whose largest rotation is one."""
+    values, vectors = np.linalg.eig(_free_operator(balance, holding))
+    motion = np.real(vectors[:, values.real.argmin()]).reshape(-1, 3)
+    return np.asarray(motion / motion[np.abs(motion[:, 0]).argmax(), 0], dtype=np.float64)
+
+
+def _free_operator(balance: Balance, holding: NDArray[np.bool_]) -> Reals:
+    """I + C P'' among motions that the hold allows, and the identity among others."""
     rows = balance.tip_jacobian[holding]
     operator = balance.operator
-    if len(rows):
-        across = balance.flexed(rows.T)
-        inverse = np.linalg.pinv(rows @ across)
-        operator = operator - across @ (inverse @ (rows @ operator))
-        operator += across @ (inverse @ rows)
-    return float(np.linalg.eigvals(operator).real.min())
+    if not len(rows):
+        return operator
+    across = balance.flexed(rows.T)
+    inverse = np.linalg.pinv(rows @ across)
+    return operator - across @ (inverse @ (rows @ operator)) + across @ (inverse @ rows)
 
 
 def tip_stiffness(balance: Balance, holding: NDArray[np.bool_]) -> float:

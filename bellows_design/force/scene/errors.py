@@ -1,7 +1,7 @@
 """How far off a force may be: what the law does not know, times how the force depends on it.
 
 Whatever the law is wrong by is taken as a rotation of every piece, or of the ends, that it does not
-know of. Each is given to the chain once, and the equilibrium is found again.
+know of. Each is given to the chain once, and the equilibrium beside it is found to first order.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from bellows_design.force.chain.equilibrium import solve
+from bellows_design.force.chain.equilibrium import beside
 from bellows_design.force.chain.loaded_chain import LoadedChain
 from bellows_design.force.chain.readings import state_of, unknowns_of
 from bellows_design.force.chain.state import ChainState
@@ -89,7 +89,7 @@ def _dependences(
 
 
 def _again(loaded: LoadedChain, state: ChainState, turns: Reals, shear: float = 1.0) -> ChainState:
-    """The equilibrium beside ``state`` whose pieces turn by ``turns`` (n,) more, rad."""
+    """To first order, the state whose pieces turn by ``turns`` (n,) more than in ``state``, rad."""
     laws: dict[tuple[int, float], ShiftedLaw] = {}
     pieces = tuple(
         replace(
@@ -99,5 +99,5 @@ def _again(loaded: LoadedChain, state: ChainState, turns: Reals, shear: float = 
         for piece, turn in zip(loaded.chain.pieces, turns.tolist(), strict=True)
     )
     other = replace(loaded, chain=replace(loaded.chain, pieces=pieces))
-    found = solve(other, state.load, unknowns_of(state), state.history)
+    found = beside(other, state.load, unknowns_of(state), state.history)
     return state_of(other, state.load, found)

@@ -100,7 +100,7 @@ def _by_distance(readings: Sequence[ForceReading]) -> Table:
     headings = ("distance, mm", "force, N", "± %", "moment, N mm", "tip, °", "stress, MPa", "")
     table = _right_aligned(headings)
     for each in readings:
-        table.add_row("" if each.distance_mm is None else f"{each.distance_mm:.3g}", *_cells(each))
+        table.add_row("" if each.distance_mm is None else f"{each.distance_mm:.4g}", *_cells(each))
     return table
 
 

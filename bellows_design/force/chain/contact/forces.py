@@ -148,12 +148,13 @@ def _against(
     pressing: Pressing,
 ) -> ContactForces:
     """Forces of one object."""
-    distance = obstacles.objects[number].distance(positions)
+    obstacle = obstacles.objects[number]
+    gap = obstacle.gap(positions)
     stiffness = obstacles.model.stiffness * widths
     known = pressing.normal[number]
-    weighed = known - SOFTNESS * (distance.value + known / stiffness)
+    weighed = known - SOFTNESS * (gap + known / stiffness)
     points = np.flatnonzero(weighed > 0)
-    near = Distance(*(values[points] for values in vars(distance).values()))
+    near = obstacle.distance(positions[points])
     stiffness, known = stiffness[points], known[points]
     outwards, along = near.gradient, turned(near.gradient)
     normal = -stiffness * near.value

@@ -41,11 +41,19 @@ class Plane:
         if not np.hypot(*self.normal) > 0:
             raise BellowsError("normal = (0, 0) of a plane gives no direction")
 
+    def gap(self, points: Reals) -> Reals:
+        """Signed distance of ``points`` (k, 2)."""
+        return (points - self.point) @ self._unit
+
     def distance(self, points: Reals) -> Distance:
-        """Of ``points`` (k, 2)."""
-        normal = np.array(self.normal) / np.hypot(*self.normal)
-        gradient = np.broadcast_to(normal, points.shape)
-        return Distance((points - self.point) @ normal, gradient, np.zeros((len(points), 2, 2)))
+        """Of ``points`` (k, 2), with derivatives."""
+        gradient = np.broadcast_to(self._unit, points.shape)
+        return Distance(self.gap(points), gradient, np.zeros((len(points), 2, 2)))
+
+    @property
+    def _unit(self) -> Reals:
+        """The normal of length one."""
+        return np.array(self.normal) / np.hypot(*self.normal)
 
 
 @dataclass(frozen=True)
@@ -63,8 +71,13 @@ class Disc:
         if not self.radius > 0:
             raise BellowsError(f"radius = {self.radius:g} mm of a disc must be positive")
 
+    def gap(self, points: Reals) -> Reals:
+        """Signed distance of ``points`` (k, 2)."""
+        arms = points - self.centre
+        return np.hypot(arms[:, 0], arms[:, 1]) - self.radius
+
     def distance(self, points: Reals) -> Distance:
-        """Of ``points`` (k, 2)."""
+        """Of ``points`` (k, 2), with derivatives."""
         return _round_distance(points - self.centre, self.radius)
 
 
@@ -91,15 +104,21 @@ class RoundedBox:
                 f"half of its smaller side, {min(self.half_sizes):g} mm"
             )
 
+    def gap(self, points: Reals) -> Reals:
+        """Signed distance of ``points`` (k, 2)."""
+        beyond = self._beyond((points - self.centre) @ self._axes.T)
+        outside = np.maximum(beyond, 0.0)
+        inside = np.minimum(beyond.max(axis=1), 0.0)
+        return np.hypot(outside[:, 0], outside[:, 1]) + inside - self.corner_radius
+
     def distance(self, points: Reals) -> Distance:
-        """Of ``points`` (k, 2)."""
-        cos, sin = np.cos(self.angle), np.sin(self.angle)
-        axes = np.array([[cos, -sin], [sin, cos]])
+        """Of ``points`` (k, 2), with derivatives."""
+        axes = self._axes
         local = (points - self.centre) @ axes.T
         signs = np.where(local < 0, -1.0, 1.0)
-        beyond = np.abs(local) - (np.array(self.half_sizes) - self.corner_radius)
+        beyond = self._beyond(local)
         corner = _round_distance(np.maximum(beyond, 0.0), self.corner_radius)
-        at_corner = (beyond > 0).all(axis=1)
+        at_corner = beyond.min(axis=1) > 0
         nearest = beyond.argmax(axis=1)
         flat = np.eye(2)[nearest]
         value = np.where(at_corner, corner.value, beyond.max(axis=1) - self.corner_radius)
@@ -107,6 +126,16 @@ class RoundedBox:
         hessian = np.where(at_corner[:, None, None], corner.hessian, 0.0)
         hessian = hessian * signs[:, :, None] * signs[:, None]
         return Distance(value, gradient @ axes, axes.T @ hessian @ axes)
+
+    @property
+    def _axes(self) -> Reals:
+        """Directions of the box's sides, as rows."""
+        cos, sin = np.cos(self.angle), np.sin(self.angle)
+        return np.array([[cos, -sin], [sin, cos]])
+
+    def _beyond(self, local: Reals) -> Reals:
+        """How far points in the box's axes are beyond the centres of its corners."""
+        return np.abs(local) - (np.array(self.half_sizes) - self.corner_radius)
 
 
 Obstacle: TypeAlias = Plane | Disc | RoundedBox

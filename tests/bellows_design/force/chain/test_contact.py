@@ -28,6 +28,7 @@ OBSTACLES: tuple[Obstacle, ...] = (
 def test_derivatives_of_distances_agree_with_finite_differences(obstacle: Obstacle) -> None:
     points = np.random.default_rng(3).uniform(-12, 12, (200, 2))
     at, step = obstacle.distance(points), 1e-5
+    assert obstacle.gap(points) == pytest.approx(at.value, abs=1e-12)
     for axis in (0, 1):
         ahead = obstacle.distance(points + step * np.eye(2)[axis])
         back = obstacle.distance(points - step * np.eye(2)[axis])
@@ -75,8 +76,8 @@ def test_a_wall_below_the_tip_does_what_a_load_cell_does() -> None:
     pressed, held = (follow(chain, around, [0.05, 0.1]).last for around in (wall, cell))
     assert [point.place for point in pressed.contacts] == pytest.approx([LENGTH])
     assert pressed.contact_force == pytest.approx((0.0, held.held_force[1]), rel=2e-3)
-    assert pressed.tip == pytest.approx(held.tip, abs=0.02)
-    assert pressed.contact_energy < 1e-3 * pressed.stored_energy
+    assert pressed.tip == pytest.approx(held.tip, abs=0.05)
+    assert pressed.contact_energy < 5e-3 * pressed.stored_energy
 
 
 def test_objects_out_of_reach_leave_the_finger_alone() -> None:
@@ -102,7 +103,7 @@ def test_neither_stiffness_nor_number_of_points_decides(
 ) -> None:
     usual = pressed_on(ContactModel(), obstacle, friction)
     scale = np.hypot(*usual.contact_force)
-    for model in (ContactModel(stiffness=5000.0), ContactModel(spacing=0.04)):
+    for model in (ContactModel(stiffness=1000.0), ContactModel(spacing=0.04)):
         other = pressed_on(model, obstacle, friction)
         change = np.subtract(other.contact_force, usual.contact_force)
         assert np.hypot(*change) < bound * scale
@@ -121,6 +122,7 @@ def dragged_on(ways: tuple[float, ...], along: float = 0.0) -> list[ChainState]:
         objects=(Plane((0, -GAP), (0, 1)),),
         friction=0.4,
         dead_forces=(DeadForce(LENGTH, (along, -0.5)),),
+        contact=ContactModel(stiffness=1000.0),
     )
     loaded = LoadedChain.of(beam(4, stretch=1.0), around)
     start = follow_loads(loaded, rest(loaded), [LoadPoint(forces=0.5), LoadPoint()]).last

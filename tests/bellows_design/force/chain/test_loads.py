@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from linear_chains import BENDING, LENGTH, beam, hinged_rod
 from scipy.optimize import root
+from scipy.special import ellipk
 
 from bellows_design.design.shipped import load_design
 from bellows_design.errors import BellowsError
@@ -248,6 +249,22 @@ def test_a_leaning_rod_that_is_pushed_over_snaps_at_the_fold() -> None:
     assert path.last.load.forces * push < force
     assert path.last.tip[2] + np.pi / 2 == pytest.approx(angle, abs=0.05)
     assert path.last.stable
+    over = path.ending.beyond
+    assert over is not None and over.stable and over.tip[0] > 0
+    lent, pushed = over.tip[2] + np.pi / 2, over.load.forces * push
+    assert fold(np.array([lent, pushed]))[0] == pytest.approx(0.0, abs=1e-7)
+    told = follow_loads(loaded, leant.last, [LoadPoint()], jumps=True)
+    assert told.ending is None and len(told.jumps) == 1 and told.last.load.forces == 1
+
+
+def test_a_buckled_column_is_followed_if_asked_and_carries_what_the_elastica_does() -> None:
+    """Just past Euler's load P the angle of the tip is 2 sin⁻¹ k, P'/P = (2 K(k) / π)²."""
+    force = 1.1 * np.pi**2 * BENDING / (4 * LENGTH**2)
+    around = Surroundings(dead_forces=(DeadForce(LENGTH, (-force, 0.0)),))
+    path = follow(beam(32), around, [0.0], jumps=True)
+    assert path.ending is None and [jump.cause for jump in path.jumps] == ["instability"]
+    modulus = np.sin(abs(path.last.tip[2]) / 2)
+    assert (2 * ellipk(modulus**2) / np.pi) ** 2 == pytest.approx(1.1, rel=3e-3)
 
 
 def test_a_place_beside_the_finger_and_negative_friction_are_refused() -> None:
