@@ -94,7 +94,7 @@ def _curve(solved: Solved, name: str, flow: float, by_distance: bool) -> ForceCu
         pneumatic_work_mj=_pneumatic_work(solved.path),
         tip_work_mj=away.work,
         air=_air(readings, solved.path, flow),
-        warnings=away.warnings,
+        warnings=(*solved.warnings, *away.warnings),
         seconds=Seconds(solved.law.seconds, seconds),
         from_cache=solved.law.from_cache,
     )

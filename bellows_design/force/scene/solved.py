@@ -45,7 +45,7 @@ class Solved:
 
     @classmethod
     def of(cls, design: Design, scene: Scene, pressures: Sequence[float], law: FingerLaw) -> Solved:
-        """Follow the path from rest to the last pressure."""
+        """Follow the path from rest to the last pressure, past jumps to where it comes to rest."""
         started = time.perf_counter()
         chain = Chain.of(
             design.bellows,
@@ -55,10 +55,18 @@ class Solved:
             weights=weights_of(design),
         )
         surroundings = surroundings_of(scene, design.bellows)
-        path = follow(chain, surroundings, _with_steps(pressures))
+        path = follow(chain, surroundings, _with_steps(pressures), jumps=True)
         loaded = LoadedChain.of(chain, surroundings)
         seconds = time.perf_counter() - started
         return cls(design, scene, tuple(pressures), law, loaded, path, seconds)
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """A sentence for each jump: the finger has more than one equilibrium there."""
+        return tuple(
+            f"{jump.sentence.rstrip('.')}, and was followed to where it comes to rest."
+            for jump in self.path.jumps
+        )
 
     @property
     def states(self) -> tuple[ChainState, ...]:
