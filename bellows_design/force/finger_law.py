@@ -31,7 +31,10 @@ class Uncertainty:
 
 
 class Facts(Protocol):
-    """What a law knows of a finger whose n pieces bear section loads (n, 3) at a pressure (MPa)."""
+    """What a law knows of a finger at a pressure (MPa).
+
+    Its n half bubbles bear section loads (n, 3), from root to tip.
+    """
 
     def touching(self, pressure: float, loads: Reals) -> bool:
         """Whether neighbouring bubbles touch."""
