@@ -7,64 +7,67 @@ from dataclasses import dataclass
 import numpy as np
 
 from bellows_design.force.finger_law import Uncertainty
-from bellows_design.force.free_finger import FreeFinger
-from bellows_design.force.law.cell_law import CellLaw
+from bellows_design.force.law.half_bubble import CellLaw
+from bellows_design.force.law.interpolation.readings import gaps
 from solver.arrays import Reals
 
 ASYMMETRY = 0.5
-"""Of the difference in compliance between both sides of a bubble, times the difference of their
-moments: a bubble whose sides differ turns on either as the other one allows, too."""
+"""Of what a half bubble turns more or less than its other half by a compliance of its own: where
+neighbours touch on one side only, each side is held back, or let go, by the other."""
+
+SHEAR = 1.0
+"""Fraction of what shear changes that counts as uncertain: it enters to first order, from the
+undeformed or the freely inflated cell."""
+
+STRESS = 0.5
+"""Fraction of the ratio of the stresses on the finest and the coarsest mesh that is uncertain under
+a moment: it is known without one."""
 
 
 @dataclass(frozen=True)
 class CellFacts:
-    """Of the law of a design's cell on its coarsest mesh, held against the free finger's evaluation.
-
-    Section loads (n, 3) are those of the half bubbles from root to tip.
-    """
+    """Of the law of a design's cell; section loads (n, 3) are those of all half bubbles."""
 
     law: CellLaw
-    free: FreeFinger
-    interpolation: float
 
     def touching(self, pressure: float, loads: Reals) -> bool:
-        """Whether neighbouring bubbles touch."""
-        return bool((self.law.gaps(pressure, loads[:, 0]) <= 0).any())
+        """Whether neighbouring bubbles touch; the outer halves have no neighbour."""
+        return bool(self._touching(pressure, loads)[1:-1].any())
 
-    def stress(self, pressure: float, loads: Reals) -> tuple[float, float]:
-        """Highest von Mises stress, MPa, and its estimated error, percent.
-
-        The coarse cell's, times what the evaluation of the free finger finds more than it does
-        without moments: half of that counts as uncertain where there are some.
-        """
-        finer = self._finer
-        stress = float(self.law.stresses(pressure, loads[:, 0]).max())
-        return finer * stress, self.free.stress_error_percent + 50 * abs(finer - 1)
+    def stress(self, pressure: float, loads: Reals) -> tuple[float, float] | None:
+        """Highest von Mises stress, MPa, and its estimated error, percent."""
+        stress, percent = self.law.stress(pressure, loads)
+        if percent is None:
+            return None
+        return stress, percent + 100 * STRESS * abs(self.law.stress_factor - 1)
 
     def unknown(self, pressure: float, loads: Reals) -> Uncertainty:
-        """Rotations that the law does not know of."""
-        turn = abs(float(self.law.response(pressure, np.zeros((1, 3))).motion[0, 0]))
-        share = turn / abs(self.law.free_rotation) if self.law.free_rotation else 1.0
-        end = share * (abs(self.free.ends_rotation) + self.free.ends_error) / 2
+        """Rotations that the law does not know of: errors in proportion to the free rotation."""
+        error, free = self.law.error, self.law.free_rotation
+        turn = float(self.law.response(pressure, np.zeros((1, 3))).motion[0, 0])
+        share = abs(turn / free) if free else 1.0
         return Uncertainty(
-            interpolation=self.interpolation,
-            mesh=self.free.mesh_error * turn,
+            interpolation=error.interpolation,
+            mesh=share * error.mesh,
             neighbours=self._neighbours(pressure, loads),
-            root=end,
-            tip=end,
-            shear=1.0,
+            root=share * error.ends,
+            tip=share * error.ends,
+            shear=SHEAR,
         )
 
-    @property
-    def _finer(self) -> float:
-        """How many times higher the stress of the free finger is than that of the coarse cell."""
-        pressure = self.law.design.load.pressure
-        return self.free.stress / float(self.law.stresses(pressure, np.zeros(1))[0])
+    def _touching(self, pressure: float, loads: Reals) -> Reals:
+        """Which half bubbles touch their neighbour (n,)."""
+        found: Reals = gaps(self.law.table, pressure, loads[:, 0]) <= 0
+        return found
 
     def _neighbours(self, pressure: float, loads: Reals) -> float:
-        """Mean rotation by which contact with a mirror image may be off, rad."""
-        compliance = self.law.response(pressure, loads).compliance[:, 0, 0].reshape(-1, 2)
+        """Mean rotation by which contact with a mirror image may be off, rad.
+
+        A cell has the same moment on both sides; of a bubble with two moments each half is taken
+        to turn as its own side says.
+        """
+        halves = self.law.response(pressure, loads).compliance[:, 0, 0].reshape(-1, 2)
         moments = loads[:, 0].reshape(-1, 2)
-        touching = (self.law.gaps(pressure, loads[:, 0]) <= 0).reshape(-1, 2).any(axis=1)
-        off = ASYMMETRY * np.abs(np.diff(compliance) * np.diff(moments))[:, 0]
-        return float((off * touching).mean())
+        touching = self._touching(pressure, loads).reshape(-1, 2).any(axis=1)
+        off = np.abs(np.diff(halves) * np.diff(moments))[:, 0]
+        return ASYMMETRY * float((off * touching).mean())

@@ -72,6 +72,7 @@ class FingerLaw:
 
     Attributes:
         piece: Of half a bubble.
+        outer: Of the first and the last half bubble, which have no neighbour; None for the same.
         root_hinge: Of what the root adds, None for nothing.
         tip_hinge: Of what the tip adds, likewise.
         facts: What is known besides.
@@ -80,6 +81,7 @@ class FingerLaw:
     """
 
     piece: SectionLaw
+    outer: SectionLaw | None = None
     root_hinge: SectionLaw | None = None
     tip_hinge: SectionLaw | None = None
     facts: Facts = field(default_factory=NoFacts)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -47,13 +47,7 @@ class Solved:
     def of(cls, design: Design, scene: Scene, pressures: Sequence[float], law: FingerLaw) -> Solved:
         """Follow the path from rest to the last pressure, past jumps to where it comes to rest."""
         started = time.perf_counter()
-        chain = Chain.of(
-            design.bellows,
-            law.piece,
-            root_hinge=law.root_hinge,
-            tip_hinge=law.tip_hinge,
-            weights=weights_of(design),
-        )
+        chain = chain_of(design, law)
         surroundings = surroundings_of(scene, design.bellows)
         path = follow(chain, surroundings, _with_steps(pressures), jumps=True)
         loaded = LoadedChain.of(chain, surroundings)
@@ -73,6 +67,24 @@ class Solved:
         """At the pressures asked for, and the last good one where the path ended before."""
         asked = [s for s in self.path.states if np.isclose(s.pressure, self.pressures).any()]
         return (*asked, self.path.last) if self.path.ending else tuple(asked)
+
+
+def chain_of(design: Design, law: FingerLaw) -> Chain:
+    """The finger of ``design`` with its weights."""
+    chain = Chain.of(
+        design.bellows,
+        law.piece,
+        root_hinge=law.root_hinge,
+        tip_hinge=law.tip_hinge,
+        weights=weights_of(design),
+    )
+    if law.outer is None:
+        return chain
+    halves = np.flatnonzero(chain.lengths > 0)
+    pieces = list(chain.pieces)
+    for number in (halves[0], halves[-1]):
+        pieces[number] = replace(pieces[number], law=law.outer)
+    return replace(chain, pieces=tuple(pieces))
 
 
 def _with_steps(pressures: Sequence[float]) -> list[float]:

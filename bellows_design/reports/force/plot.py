@@ -13,6 +13,9 @@ if TYPE_CHECKING:
 
     from bellows_design.force.result import ForceCurve, ForceReading
 
+ROOM = 1.4
+"""Of the highest force: as far as a plot reaches."""
+
 Abscissa = Callable[["ForceReading"], float]
 
 
@@ -59,6 +62,6 @@ def _draw(axes: Axes, readings: Sequence[ForceReading], abscissa: Abscissa) -> N
             *zip(*touching, strict=True), "o", markersize=5, color=COLOURS[1],
             label="neighbouring bubbles touch",
         )  # fmt: skip
-    axes.set_ylim(bottom=min(0.0, *low))
+    axes.set_ylim(0.0, ROOM * max(forces) or 1.0)  # errors grow without bound where a tip snaps
     axes.grid(True, linewidth=0.4, alpha=0.4)
     axes.legend()

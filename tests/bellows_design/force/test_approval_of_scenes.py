@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import json
+from collections.abc import Callable
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -11,9 +14,13 @@ from linear_finger import DESIGN, linear_law
 
 from bellows_design.approval import Verdict, decide, open_question
 from bellows_design.design import Design
-from bellows_design.design.scenes.scene import named_scene
+from bellows_design.design.scenes.scene import Scene, named_scene
+from bellows_design.export.statements import grounds
 from bellows_design.force.curve import force_curve
 from bellows_design.force.result import SceneResult
+from bellows_design.leak_test.record import Unavailable
+from bellows_design.pipeline import run
+from bellows_design.reports.outcome import outcome_table
 
 GOOD = FakeEvaluation(max_von_mises_mpa=2.0, error_estimate=FakeEstimate(2.0))
 CUP = {
@@ -88,3 +95,39 @@ def test_a_scene_that_is_not_reached_or_unstable_refuses() -> None:
 
 def test_scenes_leave_no_question_to_a_finer_mesh() -> None:
     assert open_question(holding("blocked"), fake_report(), GOOD) == ""
+
+
+def test_a_run_states_its_scenes_and_a_design_without_any_states_nothing(
+    stub_stages: Callable[..., None], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    stub_stages(replace(GOOD, design=DESIGN))
+    monkeypatch.setattr("bellows_design.force.required_scenes.force_curve", by_linear_law)
+    design = holding("blocked", "cup", cup=CUP)
+    found = run(design, tmp_path, leak_tester=Unavailable("it is not tried"))
+    assert found.verdict.approved, found.verdict.reasons
+    manifest = json.loads((tmp_path / design.name / "manifest.json").read_text("utf-8"))
+    assert [each["scene"] for each in manifest["scenes"]] == ["blocked", "cup"]
+    force = manifest["scenes"][0]["force_n"]
+    assert force == float(f"{found.to_dict()['scenes'][0]['force_n']:.7e}")
+    assert Design.of(manifest["design"]).digest == design.digest == manifest["digest"]
+    plain = run(DESIGN, tmp_path / "plain", leak_tester=Unavailable("it is not tried"))
+    assert "scenes" not in plain.to_dict() and "scenes" not in grounds(plain)
+
+
+def by_linear_law(design: Design, scene: Scene, pressures: tuple[float, ...], **known: Any) -> Any:
+    """A force curve by the linear law."""
+    names = {name: known[name] for name in ("name", "by_distance")}
+    return force_curve(design, scene, pressures, linear_law(), **names)
+
+
+def test_a_scene_that_cannot_be_refuses_in_its_own_words(
+    stub_stages: Callable[..., None], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    stub_stages(replace(GOOD, design=DESIGN))
+    monkeypatch.setattr("bellows_design.force.required_scenes.force_curve", by_linear_law)
+    design = holding("far", far={"kind": "blocked", "support": "wall", "distance": 90.0})
+    found = run(design, tmp_path, leak_tester=Unavailable("it is not tried"))
+    (reason,) = found.verdict.reasons
+    assert reason.kind == "scene" and "is not reached at 0.1 MPa" in reason.message
+    assert found.folder is None and found.to_dict()["scenes"][0]["converged"] is False
+    assert any("is not reached" in str(line) for line in outcome_table(found))
