@@ -25,9 +25,10 @@ if TYPE_CHECKING:
     from solver.paths.load_stepping import solve
     from solver.paths.neighbouring import Neighbouring, neighbouring
     from solver.paths.volume.control import inflate
-    from solver.problem.contacts import Contact, RigidPlane
+    from solver.problem.contacts import Contact, SurfaceContact
     from solver.problem.loads import AxialForce, BodyForce, Couple, PointForce, Traction
     from solver.problem.problem import Problem, SlenderAxis
+    from solver.problem.rigid_bodies import RigidCylinder, RigidPlane, RigidSphere
     from solver.problem.springs import FoundationSpring, NodeSpring
     from solver.problem.supports import Supports
     from solver.results.contacts import ContactForce, contact_forces
@@ -41,6 +42,7 @@ if TYPE_CHECKING:
     from solver.sensitivity.gradients import Gradients, ResponseGradient, gradients
     from solver.sensitivity.materials import constant_changes, material_derivatives
     from solver.sensitivity.section.response import SectionDerivatives, section_response
+    from solver.sensitivity.section.shear import shear_compliance
     from solver.sensitivity.sensitivities import Sensitivities, sensitivities
     from solver.sensitivity.smooth_peak import SmoothPeak
 
@@ -67,7 +69,9 @@ __all__ = [
     "Problem",
     "Reaction",
     "ResponseGradient",
+    "RigidCylinder",
     "RigidPlane",
+    "RigidSphere",
     "SectionDerivatives",
     "Sensitivities",
     "SlenderAxis",
@@ -75,6 +79,7 @@ __all__ = [
     "Solution",
     "SolverOptions",
     "Supports",
+    "SurfaceContact",
     "Trace",
     "Traction",
     "Work",
@@ -94,6 +99,7 @@ __all__ = [
     "rotation",
     "section_response",
     "sensitivities",
+    "shear_compliance",
     "solve",
     "strain_energy",
     "trace",
@@ -119,7 +125,8 @@ __getattr__ = imported_when_asked_for(
         "nonlinear.options": ("SolverOptions",),
         "paths.volume.control": ("inflate",),
         "problem.loads": ("AxialForce", "BodyForce", "Couple", "PointForce", "Traction"),
-        "problem.contacts": ("Contact", "RigidPlane"),
+        "problem.contacts": ("Contact", "SurfaceContact"),
+        "problem.rigid_bodies": ("RigidCylinder", "RigidPlane", "RigidSphere"),
         "problem.problem": ("Problem", "SlenderAxis"),
         "problem.springs": ("FoundationSpring", "NodeSpring"),
         "results.contacts": ("ContactForce", "contact_forces"),
@@ -133,6 +140,7 @@ __getattr__ = imported_when_asked_for(
         "sensitivity.gradients": ("Gradients", "ResponseGradient", "gradients"),
         "sensitivity.materials": ("constant_changes", "material_derivatives"),
         "sensitivity.section.response": ("SectionDerivatives", "section_response"),
+        "sensitivity.section.shear": ("shear_compliance",),
         "sensitivity.sensitivities": ("Sensitivities", "sensitivities"),
         "sensitivity.smooth_peak": ("SmoothPeak",),
         "results.stress": ("Peak", "nodal_cauchy", "nodal_von_mises", "peak_von_mises"),

@@ -241,7 +241,8 @@ def _contact(computation: Computation) -> WallContact:
     bellows, solution = computation.design.bellows, computation.finest
     if computation.model is UNIT_CELL:
         return contact_in_cell(bellows, solution)
-    return contact_of(bellows, solution.problem.mesh, solution.displacement)
+    problem = solution.problem
+    return contact_of(bellows, problem.mesh, solution.displacement, problem.contacts)
 
 
 def _mesh_readings(computation: Computation) -> tuple[MeshReading, ...]:

@@ -192,7 +192,7 @@ def _with_ends(
     """With the solution of a short actuator, on the mesh size of the coarsest cell.
 
     While that is not ready, the cell goes on to finer meshes, which do not count where the ends do
-    not reach the load. Contact is not modelled in a short actuator. Where inner walls touch, in the
+    not reach the load. Where inner walls touch that a short actuator does not keep apart, in the
     cell or in the short actuator, the cell without its neighbours stands for the ends, without the
     stubs of root and tip.
     """
@@ -251,15 +251,12 @@ def _refined_beside(
 
 def _stopped_inside(computation: Computation) -> bool:
     """Whether the short actuator stopped where its inner walls touch."""
-    from bellows_design.analysis.wall_contact import contact_of
+    from bellows_design.analysis.wall_contact import stopped_inside
 
     ends = computation.ends
     if ends is None or ends.stopped_by != "guard":
         return False
-    bellows = shortened(computation.design).bellows
-    found = contact_of(bellows, ends.problem.mesh, ends.displacement)
-    outer, inner = found.min_gap_mm, found.inner_gap_mm
-    return inner is not None and (outer is None or inner <= outer)
+    return stopped_inside(shortened(computation.design).bellows, ends)
 
 
 def _short_actuator(

@@ -18,7 +18,7 @@ from bellows_design.errors import DesignError
 
 if TYPE_CHECKING:
     from bellows_design.geometry.named_solids import NamedSolid
-    from solver import Contact, Mesh, Problem, SlenderAxis
+    from solver import Contact, Mesh, Problem, SlenderAxis, SurfaceContact
     from solver.adaptivity.refinement import Refinement
 
 FEWEST_BUBBLES = 3
@@ -123,28 +123,47 @@ def _cell(design: Design, mesh: Mesh, contacts: tuple[Contact, ...]) -> Problem:
 
 
 def _half_problem(design: Design, mesh: Mesh) -> Problem:
-    """Root face clamped, symmetry about y = 0, pressure on the whole cavity."""
-    from bellows_design.geometry.face_names import SYMMETRY
+    """Root face clamped, symmetry about y = 0, pressure on the whole cavity.
 
-    return _actuator(design, mesh, {SYMMETRY: 1})
+    Walls may touch their neighbours', and inner ones their images behind y = 0.
+    """
+    from bellows_design.geometry.face_names import CAVITY, SYMMETRY
+    from solver import Contact
+
+    across = Contact(CAVITY, _penetration(design), axis=1)
+    return _actuator(design, mesh, {SYMMETRY: 1}, (across,))
 
 
 def _full_problem(design: Design, mesh: Mesh) -> Problem:
-    """Root face clamped, pressure on the whole cavity."""
+    """Root face clamped, pressure on the whole cavity. Walls may touch their neighbours'."""
     return _actuator(design, mesh, {})
 
 
-def _actuator(design: Design, mesh: Mesh, symmetry: dict[str, int]) -> Problem:
+def neighbour_contacts(design: Design) -> tuple[SurfaceContact, ...]:
+    """Contact of bubbles with the next ones, on a mesh ``with_bubble_walls``."""
+    from bellows_design.geometry.bubble_walls import facing_walls
+    from solver import SurfaceContact
+
+    depth, reach = _penetration(design), design.bellows.bubble_length / 2
+    walls = facing_walls(design.bellows)
+    return tuple(SurfaceContact(front, back, depth, reach) for front, back in walls)
+
+
+def _actuator(
+    design: Design, mesh: Mesh, symmetry: dict[str, int], contacts: tuple[Contact, ...] = ()
+) -> Problem:
+    from bellows_design.geometry.bubble_walls import with_bubble_walls
     from bellows_design.geometry.face_names import CAVITY, ROOT
     from solver import Problem, Supports
 
     return Problem(
-        mesh=mesh,
+        mesh=with_bubble_walls(mesh, design.bellows),
         material=design.material.hyperelastic(),
         supports=Supports(clamped=(ROOT,), symmetry=symmetry),
         pressurised=(CAVITY,),
         axis=_axis(design.bellows),
         sharp_edge_radius=sharp_edge_radius(design),
+        contacts=(*contacts, *neighbour_contacts(design)),
     )
 
 

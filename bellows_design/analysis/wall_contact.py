@@ -1,13 +1,14 @@
 """Which walls touch under pressure, and how near the others come.
 
 The unit cell models contact with its mirror images: of neighbouring bubbles, and of a chamber's
-opposite walls. Half and full actuators model none, nor does the cell between walls of its own that
-are no mirror images, such as floor and roof of the channel: there a solve stops at the first touch,
-by ``touch_guard``.
+opposite walls. Half and full actuators model that of neighbouring bubbles, the half also that of
+inner walls across y = 0. No model keeps other walls apart, such as floor and roof of the channel:
+there a solve stops at the first touch, by ``touch_guard``.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -15,6 +16,7 @@ import numpy as np
 
 from bellows_design.analysis.cell_chain import chain
 from bellows_design.design.bellows_parameters import BellowsParameters
+from bellows_design.geometry.bubble_walls import nearest_bubble, on_bubble
 from bellows_design.geometry.face_names import CAVITY, OUTSIDE, ROOT, SYMMETRY, TIP
 from solver import Mesh
 from solver.mesh.proximity import OPPOSING, Gaps, facet_normals, facing_gaps
@@ -23,6 +25,7 @@ if TYPE_CHECKING:
     from solver import Problem, Solution
     from solver.assembly.state import State
     from solver.nonlinear.events import Guard
+    from solver.problem.contacts import AnyContact
 
 NEIGHBOURS, OUTER, INSIDE = "neighbouring bubbles", "outer walls", "inner walls"
 ITSELF = "distant parts"
@@ -79,8 +82,9 @@ def touch_guard(bellows: BellowsParameters, problem: Problem) -> Guard:
             outside, inside = _gaps_in_cell(problem.mesh, state.displacement)
             touching = _unmodelled_in_cell(bellows, outside, inside)
         else:
-            found = contact_of(bellows, problem.mesh, state.displacement)
-            touching = tuple(name for name in found.where if name != ITSELF)
+            touching = _unmodelled(
+                *_found_in_actuator(bellows, problem.mesh, state.displacement, problem.contacts)
+            )
         if not touching:
             return ""
         return f"{' and '.join(touching)} touch, and this model does not keep them apart"
@@ -88,20 +92,37 @@ def touch_guard(bellows: BellowsParameters, problem: Problem) -> Guard:
     return refusal
 
 
-def contact_of(bellows: BellowsParameters, mesh: Mesh, displacement: np.ndarray) -> WallContact:
-    """Contact in an actuator, full or half, after ``displacement`` (n, 3), mm: none is modelled."""
-    outer = _outer_gaps(bellows, mesh, displacement)
-    inner = _inner_gap(bellows, mesh, displacement)
-    touching = (*outer.touching, *((INSIDE,) if _touches(inner) else ()))
+def contact_of(
+    bellows: BellowsParameters,
+    mesh: Mesh,
+    displacement: np.ndarray,
+    contacts: Sequence[AnyContact] = (),
+) -> WallContact:
+    """Contact in an actuator, full or half, after ``displacement`` (n, 3), mm.
+
+    ``contacts``: those of its problem, by which walls are kept apart.
+    """
+    outer, inner = _found_in_actuator(bellows, mesh, displacement, contacts)
+    missed = _unmodelled(outer, inner)
+    inside = (INSIDE,) if _touches(inner.narrowest) else ()
+    touching = (*outer.touching, *inside)
     return WallContact(
         detected=bool(touching),
         min_gap_mm=outer.narrowest,
         overlaps_itself=outer.overlap,
-        inner_gap_mm=inner,
+        inner_gap_mm=inner.narrowest,
         where=_with_overlap(touching, outer.overlap),
-        modelled=False,
-        note=UNMODELLED if touching else "",
+        modelled=bool(contacts) and not missed,
+        note="" if not missed else PARTLY if contacts else UNMODELLED,
     )
+
+
+def stopped_inside(bellows: BellowsParameters, ends: Solution) -> bool:
+    """Whether in an actuator inner walls that nothing keeps apart are nearest to each other."""
+    problem = ends.problem
+    outer, inner = _found_in_actuator(bellows, problem.mesh, ends.displacement, problem.contacts)
+    gap = inner.unkept
+    return gap is not None and (outer.narrowest is None or gap <= outer.narrowest)
 
 
 def contact_in_cell(bellows: BellowsParameters, cell: Solution) -> WallContact:
@@ -176,7 +197,7 @@ def _in_notch(bellows: BellowsParameters, gaps: Gaps) -> np.ndarray:
 
 def _narrowest(gaps: Gaps) -> float | None:
     """Narrowest air (mm), such as between the channel's floor and roof; None without any."""
-    return float(gaps.distances.min()) if gaps.distances.size else None
+    return _least(gaps.distances)
 
 
 def _touches(gap: float | None) -> bool:
@@ -191,41 +212,104 @@ def _with_overlap(touching: tuple[str, ...], overlap: bool) -> tuple[str, ...]:
 class OuterGaps:
     """``narrowest`` air between outer walls, mm; names of those ``touching``.
 
-    ``overlap``: distant parts run through each other.
+    ``kept``: those of them that contact keeps apart. ``overlap``: distant parts run through each
+    other.
     """
 
     narrowest: float | None
     touching: tuple[str, ...]
     overlap: bool
+    kept: tuple[str, ...] = ()
 
 
-def _outer_gaps(bellows: BellowsParameters, mesh: Mesh, displacement: np.ndarray) -> OuterGaps:
-    """Air outside: between neighbouring bubbles, and of one bubble to root, tendon and tip."""
-    gaps = facing_gaps(mesh, displacement, *_closed(mesh))
-    apart = _bubbles_apart(bellows, gaps)
-    notch = _in_notch(bellows, gaps)
-    near = gaps.distances[(apart <= 1) & ~notch]
-    names = {NEIGHBOURS: apart == 1, OUTER: apart == 0}
-    return OuterGaps(
-        narrowest=float(near.min()) if near.size else None,
-        touching=tuple(
-            name for name, pairs in names.items() if (gaps.distances[pairs & ~notch] <= 0).any()
-        ),
-        overlap=bool((gaps.distances[apart > 1] < 0).any()),
+@dataclass(frozen=True)
+class InnerGaps:
+    """Narrowest air inside, mm, None if nothing faces: of all walls, and of those that nothing
+    keeps apart.
+    """
+
+    narrowest: float | None
+    unkept: float | None
+
+
+def _found_in_actuator(
+    bellows: BellowsParameters,
+    mesh: Mesh,
+    displacement: np.ndarray,
+    contacts: Sequence[AnyContact],
+) -> tuple[OuterGaps, InnerGaps]:
+    """Gaps outside and inside of an actuator, full or half."""
+    from solver import Contact, SurfaceContact
+
+    neighbours = [each for each in contacts if isinstance(each, SurfaceContact)]
+    across = any(isinstance(each, Contact) and each.surface == CAVITY for each in contacts)
+    deepest = max((DEEPEST * each.penetration for each in neighbours), default=None)
+    return (
+        _outer_gaps(bellows, mesh, displacement, deepest),
+        _inner_gaps(bellows, mesh, displacement, across),
     )
 
 
-def _inner_gap(bellows: BellowsParameters, mesh: Mesh, displacement: np.ndarray) -> float | None:
-    """Narrowest air between walls inside, mm; None if no inner surface is there.
+def _unmodelled(outer: OuterGaps, inner: InnerGaps) -> tuple[str, ...]:
+    """Names of walls of an actuator that touch and that nothing keeps apart."""
+    outside = tuple(name for name in outer.touching if name not in outer.kept)
+    return (*outside, INSIDE) if _touches(inner.unkept) else outside
+
+
+DEEPEST = 20.0
+"""Neighbours deeper in each other than so many penetrations have passed through their contact; flat
+facets of curved walls seem to be in each other by less."""
+
+
+def _outer_gaps(
+    bellows: BellowsParameters,
+    mesh: Mesh,
+    displacement: np.ndarray,
+    deepest: float | None = None,
+) -> OuterGaps:
+    """Air outside: between neighbouring bubbles, and of one bubble to root, tendon and tip.
+
+    ``deepest``: how far contact may let neighbours into each other, mm; None without contact.
+    """
+    gaps = facing_gaps(mesh, displacement, *_closed(mesh))
+    apart = _bubbles_apart(bellows, gaps)
+    walls = on_bubble(bellows, gaps.starts[:, 0]) & on_bubble(bellows, gaps.ends[:, 0])
+    notch = _in_notch(bellows, gaps)
+    near = gaps.distances[(apart <= 1) & ~notch]
+    pairs = {NEIGHBOURS: (apart == 1) & walls, OUTER: (apart == 0) | ((apart == 1) & ~walls)}
+    least = {
+        name: float(gaps.distances[those & ~notch].min(initial=np.inf))
+        for name, those in pairs.items()
+    }
+    keeps = deepest is not None and least[NEIGHBOURS] >= -deepest
+    return OuterGaps(
+        narrowest=float(near.min()) if near.size else None,
+        touching=tuple(name for name, gap in least.items() if gap <= 0),
+        overlap=bool((gaps.distances[apart > 1] < 0).any()),
+        kept=(NEIGHBOURS,) if keeps else (),
+    )
+
+
+def _inner_gaps(
+    bellows: BellowsParameters, mesh: Mesh, displacement: np.ndarray, across: bool
+) -> InnerGaps:
+    """Narrowest air between walls inside; ``across``: contact keeps those apart that meet at y = 0.
 
     Distant parts that run through each other past a full turn do not count.
     """
     if CAVITY not in mesh.surfaces:
-        return None
+        return InnerGaps(None, None)
     seen = facing_gaps(mesh, displacement, CAVITY, *_closed(mesh), seen_from=(CAVITY,))
     gaps = seen.distances[_bubbles_apart(bellows, seen) <= 1]
+    images = np.zeros(0)
     if SYMMETRY in mesh.surfaces:
-        gaps = np.append(gaps, _gaps_across(mesh, displacement))
+        images = _gaps_across(mesh, displacement)
+    every = np.append(gaps, images)
+    return InnerGaps(_least(every), _least(gaps if across else every))
+
+
+def _least(gaps: np.ndarray) -> float | None:
+    """The least of some gaps, None without any."""
     return float(gaps.min()) if gaps.size else None
 
 
@@ -243,10 +327,5 @@ def _closed(mesh: Mesh) -> tuple[str, ...]:
 
 def _bubbles_apart(bellows: BellowsParameters, gaps: Gaps) -> np.ndarray:
     """How many bubbles lie between the two facets of each gap, (k,)."""
-    return np.abs(_bubble(bellows, gaps.starts) - _bubble(bellows, gaps.ends))
-
-
-def _bubble(bellows: BellowsParameters, places: np.ndarray) -> np.ndarray:
-    """Number of the bubble each place (k, 3) is nearest to along x, (k,)."""
-    nearest = np.rint((places[:, 0] - bellows.bubble_middles[0]) / bellows.pitch)
-    return np.clip(nearest, 0, bellows.bubble_count - 1)
+    start, end = (nearest_bubble(bellows, at[:, 0]) for at in (gaps.starts, gaps.ends))
+    return np.abs(start - end)

@@ -55,7 +55,7 @@ class Skin:
         Surfaces that are so ``parallel`` count as one where they meet. Raises
         :class:`ForeignMesh` if a node lies on none of them.
         """
-        triangles = mesh.triangles(*mesh.surfaces)
+        triangles = mesh.skin
         nodes, local = np.unique(triangles, return_inverse=True)
         local = local.reshape(triangles.shape)
         given, ends = mesh.nodes[nodes], _ends(local, len(nodes))

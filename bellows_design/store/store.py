@@ -1,4 +1,4 @@
-"""Evaluations kept in files, for all processes of a user, within a bound.
+"""Evaluations and laws kept in files, for all processes of a user, within a bound.
 
 A folder for each kind of result, in it one for each of the surroundings results were computed in,
 in it a file for each result: ``evaluations/<surroundings>/<key>.npz``. Kinds do not mix: what is
@@ -12,27 +12,39 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from pathlib import Path
 from stat import S_ISREG
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from bellows_design.files.atomic import remove_leftovers
 from bellows_design.store.key import Key, present_surroundings
 from bellows_design.store.place import cache_folder
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from bellows_design.analysis.evaluation import Evaluation
     from bellows_design.design.design import Design
+
+    Values = dict[str, Any]
+    Arrays = dict[str, NDArray[Any]]
 
 LIMIT = 2**30
 """Bytes. An evaluation of the default accuracy takes about 2 MB."""
 
 ORDINARY = "evaluations"
 """The kind that verdicts rest on: meshes of the design's own solid, loaded from zero."""
+
+LAWS = "laws"
+"""Of half bubbles, in tables."""
+
+KINDS = (ORDINARY, LAWS)
+
+Record = TypeVar("Record")
 
 _SURROUNDINGS, _KEY = re.compile("[0-9a-f]{20}"), re.compile(r"[0-9a-f]{64}\.npz")
 
@@ -82,6 +94,10 @@ class Store:
     limit: int = LIMIT
     kind: str = ORDINARY
 
+    def of_kind(self, kind: str) -> Store:
+        """The same place for another kind of results, one of ``KINDS``."""
+        return replace(self, kind=kind)
+
     @staticmethod
     def usual() -> Store:
         """The one of this user."""
@@ -89,12 +105,18 @@ class Store:
 
     def find(self, key: Key, design: Design) -> Evaluation | None:
         """The evaluation of ``design`` that is kept under ``key``; None if there is none."""
+        from bellows_design.store.records import evaluation_from
+
+        return self.find_record(key, lambda values, arrays: evaluation_from(values, arrays, design))
+
+    def find_record(self, key: Key, made: Callable[[Values, Arrays], Record]) -> Record | None:
+        """What ``made`` makes of what is kept under ``key``; None if there is nothing."""
         path = self._path(key)
         try:
-            evaluation = _read(path, key, design)
+            record = made(*_read(path, key))
             with suppress(OSError):  # a folder that may only be read
                 os.utime(path)
-            return evaluation
+            return record
         except FileNotFoundError:
             return None
         except Exception:  # damage shows in any of NumPy's, zip's, JSON's or our own ways
@@ -108,13 +130,20 @@ class Store:
         Not kept is what a limit of time had a part in, which is another one on another day, and
         what is larger than the whole store. Raises ``OSError`` if the file cannot be written.
         """
-        from bellows_design.store.files import content_of, write
         from bellows_design.store.records import record_of
 
         if not evaluation.computation.in_time:
             return False
         dated = replace(evaluation, from_cache=written(datetime.now(UTC)))
-        values, arrays = record_of(dated)
+        return self.keep_record(key, *record_of(dated))
+
+    def keep_record(self, key: Key, values: Values, arrays: Arrays) -> bool:
+        """Keep values and arrays under ``key``, unless they are larger than the whole store.
+
+        Raises ``OSError`` if the file cannot be written.
+        """
+        from bellows_design.store.files import content_of, write
+
         content = content_of({"asked": key.asked, **values}, arrays)
         if len(content) > self.limit:
             return False
@@ -138,14 +167,15 @@ class Store:
         )
 
     def clear(self) -> int:
-        """Remove all results of this kind, and nothing else; how many could not be removed."""
+        """Remove all results, and nothing else; how many could not be removed."""
         left = sum(not self._remove(file) for file in self._files())
         for folder in self._folders():
             remove_leftovers(folder)
             with suppress(OSError):  # another process is at work in it
                 folder.rmdir()
-        with suppress(OSError):
-            (self.folder / self.kind).rmdir()
+        for kind in KINDS:
+            with suppress(OSError):
+                (self.folder / kind).rmdir()
         return left
 
     def _path(self, key: Key) -> Path:
@@ -174,7 +204,9 @@ class Store:
         return [file for folder in self._folders() for file in _files_in(folder)]
 
     def _folders(self) -> list[Path]:
-        return [path for path in _entries(self.folder / self.kind) if _is(path, _SURROUNDINGS)]
+        """Of all kinds, which share the limit."""
+        found = (path for kind in KINDS for path in _entries(self.folder / kind))
+        return [path for path in found if _is(path, _SURROUNDINGS)]
 
 
 def written(time: datetime) -> str:
@@ -182,14 +214,13 @@ def written(time: datetime) -> str:
     return time.strftime("%Y-%m-%dT%H:%M:%SZ")
 
 
-def _read(path: Path, key: Key, design: Design) -> Evaluation:
+def _read(path: Path, key: Key) -> tuple[Values, Arrays]:
     from bellows_design.store.files import read
-    from bellows_design.store.records import evaluation_from
 
     values, arrays = read(path)
     if values["asked"] != key.asked:
         raise ValueError("another question's answer")
-    return evaluation_from(values, arrays, design)
+    return values, arrays
 
 
 def _files_in(folder: Path) -> Iterator[_File]:

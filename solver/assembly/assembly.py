@@ -8,10 +8,11 @@ import numpy as np
 
 from solver.arrays import Reals
 from solver.assembly.colouring import chunks
-from solver.assembly.contact import Contacts, contact_pairs
+from solver.assembly.contact import Contacts
 from solver.assembly.free_rim import FreeRim
 from solver.assembly.layout import Layout
 from solver.assembly.moving_plane import MovingPlane
+from solver.assembly.pairs.made import contact_pairs
 from solver.assembly.pressure import pressure_facets
 from solver.assembly.section import SectionLoads
 from solver.assembly.springs import Springs
@@ -92,7 +93,7 @@ class Assembly:
 
     @property
     def pattern(self) -> Pattern:
-        """Sparsity pattern of the tangent without contact at a moving plane."""
+        """Sparsity pattern of the tangent without contact at a moving plane or between surfaces."""
         return self.layout.pattern
 
     def evaluate(
@@ -110,6 +111,8 @@ class Assembly:
         self._add_springs(state, tangent, residual, values)
         values, pattern = self.contacts.add(state, tangent, residual, values, load)
         skew = self._skew(state, pressure) if tangent else np.zeros(0)
+        if len(skew):
+            skew = self.contacts.in_pattern(skew, state, load)
         return Equilibrium(residual, force, values, smallest, pattern, skew)
 
     def dead_force(self, state: State) -> Reals:
@@ -183,7 +186,7 @@ class Assembly:
     def energy(self, state: State, load: float = 0.0) -> float:
         """Pi of the solid, its springs and contacts, N mm.
 
-        Its gradient is the residual without pressure and dead loads; rigid planes are where they
+        Its gradient is the residual without pressure and dead loads; rigid bodies are where they
         are at the fraction ``load`` of the load.
         """
         solid = total_energy(self._solid, state.displacement, state.hydrostatic_pressure)
@@ -200,7 +203,7 @@ def unbalanced_forces(problem: Problem, state: State, pressure: float, load: flo
     """Out-of-balance nodal forces (n, 3) in N: zero except where supports act.
 
     Under ``pressure`` (MPa) and the fraction ``load`` of the dead loads and of the motions of rigid
-    planes; springs and contacts belong to the balance.
+    bodies; springs and contacts belong to the balance.
     """
     mesh = problem.mesh
     everything = number_unknowns(mesh, NO_SUPPORTS)

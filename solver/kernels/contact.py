@@ -1,4 +1,7 @@
-"""Contact of six-node triangles with planes; see ``solver.assembly.contact``."""
+"""Contact of six-node triangles with planes and with rigid cylinders and spheres.
+
+See ``solver.assembly.contact``.
+"""
 
 from __future__ import annotations
 
@@ -80,6 +83,18 @@ def contact_slopes(face: Face, gaps: Reals) -> Reals:
                 gaps[triangle, point], face.stiffness, face.smoothing
             )[2]
     return slopes
+
+
+@compiled()
+def contact_energies(face: Face, gaps: Reals) -> Reals:
+    """psi (k, q) at signed gaps (k, q) of quadrature points, N/mm."""
+    energies = np.empty(gaps.shape)
+    for triangle in range(gaps.shape[0]):
+        for point in range(gaps.shape[1]):
+            energies[triangle, point] = contact_law(
+                gaps[triangle, point], face.stiffness, face.smoothing
+            )[0]
+    return energies
 
 
 @compiled()
@@ -168,3 +183,46 @@ def assemble_contact(
             if not np.isnan(heights[nodes[a]]):
                 to_plane_unknowns(r, k, a, heights[nodes[a]], tilt)
         scatter(r, k, face.dofs[triangle], entries[triangle], 1.0, tangent, residual, values)
+
+
+@compiled()
+def assemble_curved_contact(
+    face: Face,
+    entries: Integers,
+    gaps: Reals,
+    normals: Reals,
+    across: Reals,
+    radius: float,
+    tangent: bool,
+    residual: Reals,
+    values: Reals,
+) -> None:
+    """Add forces and tangent of contact with a cylinder or sphere; see ``assemble_contact``.
+
+    ``gaps`` (k, q) and ``normals`` (k, q, 3) of the quadrature points; ``across`` (3, 3): the
+    projection across the axis, or the identity; ``radius`` in mm.
+    """
+    r = np.empty(UNKNOWNS)
+    k = np.empty((UNKNOWNS, UNKNOWNS))
+    for triangle in range(face.triangles.shape[0]):
+        r[:] = 0.0
+        k[:, :] = 0.0
+        touches = False
+        for point in range(face.shapes.shape[0]):
+            gap, normal = gaps[triangle, point], normals[triangle, point]
+            _, pressure, slope = contact_law(gap, face.stiffness, face.smoothing)
+            if pressure == 0.0:
+                continue
+            touches = True
+            area, shapes = face.areas[triangle, point], face.shapes[point]
+            bend = pressure / (gap + radius)
+            for i in range(3):
+                for j in range(3):
+                    stiffness = (slope + bend) * normal[i] * normal[j] - bend * across[i, j]
+                    for a in range(6):
+                        for b in range(6):
+                            k[3 * a + i, 3 * b + j] += area * stiffness * shapes[a] * shapes[b]
+                for a in range(6):
+                    r[3 * a + i] -= area * pressure * shapes[a] * normal[i]
+        if touches:
+            scatter(r, k, face.dofs[triangle], entries[triangle], 1.0, tangent, residual, values)

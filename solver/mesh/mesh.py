@@ -122,6 +122,27 @@ class Mesh:
         other.__dict__.update(known)
         return other
 
+    def with_surfaces(self, surfaces: Mapping[str, Integers]) -> Mesh:
+        """The same mesh with more named surfaces, or others of the same names.
+
+        Args:
+            surfaces: name -> node numbers of triangles as in ``surfaces``.
+
+        Raises:
+            SolverError: a table of another shape, or a node number out of range.
+        """
+        other = replace(self, surfaces={**self.surfaces, **surfaces})
+        kept = (name for name in CONNECTIVITY if name != "boundary_surfaces")
+        other.__dict__.update({name: self.__dict__[name] for name in kept if name in self.__dict__})
+        return other
+
+    @property
+    def skin(self) -> Integers:
+        """All triangles (k, 6) of the named surfaces, each once."""
+        triangles = self.triangles(*self.surfaces)
+        _, first = np.unique(triangles, axis=0, return_index=True)
+        return triangles[np.sort(first)]
+
     def triangles(self, *names: str) -> Integers:
         """All six-node triangles of the named surfaces, (k, 6); ``SolverError`` if unknown."""
         for name in names:

@@ -1,23 +1,17 @@
-"""Planes that surfaces of the body may not cross: of symmetry, and rigid ones that may move."""
+"""What surfaces of the body may not cross: planes of symmetry, the moving plane, rigid bodies."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
 import numpy as np
 
-from solver.arrays import Reals
 from solver.errors import SolverError
 from solver.input_types import check_number, is_axis, shown
 from solver.mesh.mesh import Mesh
-from solver.problem.vectors import finite
-
-Vector: TypeAlias = tuple[float, float, float]
-
-PlaneMotion: TypeAlias = Callable[[float], Sequence[float] | Reals]
-"""Fraction of the load -> displacement (3,) of a plane in mm; zero at no load."""
+from solver.problem.rigid_bodies import RigidBody, RigidCylinder, RigidPlane, RigidSphere
 
 
 @dataclass(frozen=True)
@@ -56,124 +50,116 @@ class Contact:
 
 
 @dataclass(frozen=True)
-class RigidPlane:
-    """Frictionless contact of a surface with a rigid plane, which stands still or moves.
+class SurfaceContact:
+    """Frictionless contact of a surface of the body with another one, which it may not cross.
 
-    In a later stage a plane that has moved begins at its new ``point``. What a plane that is gone,
-    or stands elsewhere, has exerted until then fades with the load.
+    The pressure is integrated over the first surface alone: the other one, which bears it, is
+    better the coarser or the stiffer one.
 
     Attributes:
-        surface: name of the surface.
-        penetration: depth beyond the plane, mm, at a contact pressure equal to the material's
-            initial shear modulus; other pressures in proportion.
-        normal: of the plane, to the side on which the surface is; of any length but zero.
-
-            *Shape:* (3,).
-        point: on the plane at no load.
-
-            *Shape:* (3,) in mm.
-        motion: displacement of the plane at each fraction of the load, zero at no load; None for a
-            plane that stands still.
-
-            *Shape:* load -> (3,) in mm.
+        surface: name of the surface whose points are kept on the outer side of the other one.
+        other: name of the other surface; the two share no node.
+        penetration: depth at a contact pressure equal to the material's initial shear modulus, mm;
+            other pressures in proportion.
+        reach: how deep behind the other surface a point is still taken for one in contact, mm: more
+            than a correction on the way to equilibrium moves it, less than the body is thick there.
+            By default a mean edge of the mesh.
 
     Raises:
-        SolverError: a penetration that is not positive and finite, a normal or point that is not
-            three finite numbers, a normal of length zero, or a motion that is no function of the
-            load or does not give three finite numbers.
+        SolverError: a penetration or reach that is not positive and finite, or a surface that is to
+            touch itself.
     """
 
     surface: str
+    other: str
     penetration: float
-    normal: Vector
-    point: Vector
-    motion: PlaneMotion | None = None
+    reach: float | None = None
 
     def __post_init__(self) -> None:
-        depth = float(finite("contacts: penetration (mm)", self.penetration, ()))
-        if depth <= 0:
-            raise SolverError(f"contacts: penetration = {depth:g} mm must be above 0.")
-        for name, given in (("normal", self.normal), ("point", self.point)):
-            values = finite(f"contacts: the {name} of the rigid plane", given, (3,))
-            object.__setattr__(self, name, tuple(float(x) for x in values))
-        if not any(self.normal):
-            raise SolverError("contacts: the normal of the rigid plane must not have length zero.")
-        if self.motion is not None and not callable(self.motion):
+        for name in ("penetration", "reach"):
+            value = getattr(self, name)
+            if value is None and name == "reach":
+                continue
+            check_number(f"contacts: {name}", value)
+            if not 0 < value < np.inf:
+                raise SolverError(f"contacts: {name} = {value:g} mm must be above 0 and finite.")
+        if self.surface == self.other:
             raise SolverError(
-                "contacts: the motion of a rigid plane must be a function of the load, "
-                f"got {shown(self.motion)}."
+                f"contacts: the surface {self.surface!r} must touch another one, not itself."
             )
-        self.displacement(0.0), self.displacement(1.0)
-
-    @property
-    def unit_normal(self) -> Reals:
-        """The normal with length 1, (3,)."""
-        normal = np.array(self.normal) / np.abs(self.normal).max()  # so that no square overflows
-        unit: Reals = normal / np.linalg.norm(normal)
-        return unit
-
-    def displacement(self, load: float) -> Reals:
-        """Displacement of the plane (3,) at a fraction of the load, mm.
-
-        Raises ``SolverError`` unless the motion gives three finite numbers.
-        """
-        if self.motion is None:
-            return np.zeros(3)
-        what = f"contacts: the motion of the plane of {self.surface!r} at load {load:g} (mm)"
-        return finite(what, self.motion(load), (3,))
-
-    def equation(self, load: float) -> Reals:
-        """n and c (4,) of the signed distance n . x + c from the plane at a fraction of the load.
-
-        It is positive on the body's side.
-        """
-        normal = self.unit_normal
-        return np.append(normal, -normal @ (np.array(self.point) + self.displacement(load)))
 
 
-ContactPlane: TypeAlias = Contact | RigidPlane
+AnyContact: TypeAlias = Contact | SurfaceContact | RigidPlane | RigidCylinder | RigidSphere
 
 
-def on_moving_plane(contact: ContactPlane) -> bool:
+def surfaces_of(contact: AnyContact) -> tuple[str, ...]:
+    """Names of the surfaces of the body that a contact is about."""
+    if isinstance(contact, SurfaceContact):
+        return contact.surface, contact.other
+    return (contact.surface,)
+
+
+def on_moving_plane(contact: AnyContact) -> bool:
     """Whether the contact is with the problem's moving plane."""
     return isinstance(contact, Contact) and contact.axis is None
 
 
-def planes_move(contacts: Sequence[ContactPlane]) -> bool:
-    """Whether rigid planes move with the load."""
-    return any(isinstance(each, RigidPlane) and each.motion is not None for each in contacts)
+def bodies_move(contacts: Sequence[AnyContact]) -> bool:
+    """Whether rigid bodies move with the load."""
+    return any(isinstance(each, RigidBody) and each.motion is not None for each in contacts)
 
 
 def check_contacts(
-    mesh: Mesh, contacts: Sequence[ContactPlane], moving_plane: str | None
-) -> tuple[ContactPlane, ...]:
+    mesh: Mesh, contacts: Sequence[AnyContact], moving_plane: str | None
+) -> tuple[AnyContact, ...]:
     """Contacts as a tuple; ``SolverError`` for unknown surfaces and planes that are not there."""
     if not isinstance(contacts, Sequence) or isinstance(contacts, str):
         raise SolverError(f"contacts: needs a tuple of contacts, got {contacts!r}.")
     for contact in contacts:
-        if not isinstance(contact, Contact | RigidPlane):
-            raise SolverError(f"contacts: needs Contact or RigidPlane, got {contact!r}.")
-        if len(mesh.triangles(contact.surface)) == 0:
-            raise SolverError(f"contacts: the surface {contact.surface!r} has no triangles.")
+        if not isinstance(contact, AnyContact):
+            raise SolverError(
+                "contacts: needs Contact, SurfaceContact, RigidPlane, RigidCylinder or "
+                f"RigidSphere, got {contact!r}."
+            )
+        for surface in surfaces_of(contact):
+            if len(mesh.triangles(surface)) == 0:
+                raise SolverError(f"contacts: the surface {surface!r} has no triangles.")
         if on_moving_plane(contact) and moving_plane is None:
             raise SolverError(
                 f"contacts: the surface {contact.surface!r} needs an axis, as the problem has no "
                 "moving plane."
             )
-        if isinstance(contact, RigidPlane):
+        if isinstance(contact, RigidBody):
             _check_rigid(mesh, contact, moving_plane)
+        if isinstance(contact, SurfaceContact):
+            _check_surfaces(mesh, contact, moving_plane)
     return tuple(contacts)
 
 
-def _check_rigid(mesh: Mesh, contact: RigidPlane, moving_plane: str | None) -> None:
-    """Raise ``SolverError`` for a rigid plane at a cell, or one whose motion begins with a leap."""
+def _check_surfaces(mesh: Mesh, contact: SurfaceContact, moving_plane: str | None) -> None:
+    """Raise ``SolverError`` for surfaces at a cell, or ones that share nodes."""
     if moving_plane is not None:
         raise SolverError(
-            "contacts: a cell with a moving plane touches mirror images, not rigid planes."
+            "contacts: a cell with a moving plane touches mirror images, not other surfaces."
+        )
+    one, other = mesh.surface_nodes(contact.surface), mesh.surface_nodes(contact.other)
+    if len(np.intersect1d(one, other)):
+        raise SolverError(
+            f"contacts: the surfaces {contact.surface!r} and {contact.other!r} share nodes; those "
+            "of two that touch must not."
+        )
+
+
+def _check_rigid(mesh: Mesh, contact: RigidBody, moving_plane: str | None) -> None:
+    """Raise ``SolverError`` for a rigid body at a cell, or one whose motion begins with a leap."""
+    if moving_plane is not None:
+        raise SolverError(
+            "contacts: a cell with a moving plane touches mirror images, not rigid "
+            f"{contact.kind}s."
         )
     start = float(np.abs(contact.displacement(0.0)).max())
     if start > 1e-9 * mesh.size:
         raise SolverError(
-            f"contacts: the motion of the plane of {contact.surface!r} must be zero at no load, "
-            f"got {start:.3g} mm."
+            f"contacts: the motion of the {contact.kind} of {contact.surface!r} must be zero at no "
+            f"load, got {start:.3g} mm."
         )

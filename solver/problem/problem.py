@@ -14,7 +14,7 @@ from solver.mesh.mesh import Mesh
 from solver.problem.supports import Supports
 
 if TYPE_CHECKING:
-    from solver.problem.contacts import ContactPlane
+    from solver.problem.contacts import AnyContact
     from solver.problem.loads import Load
     from solver.problem.springs import Spring
 
@@ -62,13 +62,14 @@ class Problem:
             forces.
         sharp_edge_radius: mm; stresses nearer than that to an edge at which the ideal body's are
             unbounded are left out of peaks (``solver.results.sharp_edges``).
-        contacts: surfaces that may not cross planes of symmetry or rigid planes, some of which
-            move with the load (``solver.assembly.contact``); with a moving plane no rigid ones.
+        contacts: surfaces that may not cross planes of symmetry, rigid bodies, some of which move
+            with the load, or each other (``solver.assembly.contact``); with a moving plane only
+            planes of symmetry and that one.
         springs: linear springs between the body and the ground; none with a moving plane.
 
     Raises:
         SolverError: a surface is unknown, has no triangles or is not made of outer faces, the
-            moving plane is not plane, loads, springs or rigid planes do not go with it, a contact
+            moving plane is not plane, loads, springs or rigid bodies do not go with it, a contact
             has no plane, supports and springs leave a rigid motion free, or the supports leave the
             pressure of an incompressible body undetermined.
     """
@@ -81,13 +82,13 @@ class Problem:
     axis: SlenderAxis | None = None
     moving_plane: str | None = None
     sharp_edge_radius: float = 0.0
-    contacts: tuple[ContactPlane, ...] = ()
+    contacts: tuple[AnyContact, ...] = ()
     springs: tuple[Spring, ...] = ()
 
     def __post_init__(self) -> None:
         self._check_kinds()
         from solver.mesh.checks import check_mesh
-        from solver.problem.contacts import check_contacts
+        from solver.problem.contacts import check_contacts, surfaces_of
         from solver.problem.loads import check_loads, loaded_surfaces
         from solver.problem.springs import check_springs, sprung_surfaces
         from solver.problem.support_checks import check_pressure, check_supports
@@ -99,7 +100,8 @@ class Problem:
         contacts = check_contacts(self.mesh, self.contacts, self.moving_plane)
         object.__setattr__(self, "contacts", contacts)
         loaded = (*loaded_surfaces(self.loads), *sprung_surfaces(springs))
-        check_mesh(self.mesh, self.pressurised, (*loaded, *(each.surface for each in contacts)))
+        touching = (name for each in contacts for name in surfaces_of(each))
+        check_mesh(self.mesh, self.pressurised, (*loaded, *touching))
         if not 0 <= self.sharp_edge_radius < np.inf:
             raise SolverError(
                 f"sharp_edge_radius = {self.sharp_edge_radius} mm must be a number of at least 0."

@@ -1,4 +1,4 @@
-"""What the planes of a problem's contacts exert on the body."""
+"""What the contacts of a problem exert on the body."""
 
 from __future__ import annotations
 
@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from solver.arrays import Integers, Reals
-from solver.assembly.contact import ContactPair, contact_pairs
+from solver.assembly.pairs.made import contact_pairs
+from solver.assembly.pairs.pair import ContactPair
 from solver.mesh.elements import triangle_rule
 from solver.problem.vectors import finite
 from solver.results.solution import Solution, check_solution
@@ -18,18 +19,18 @@ class ContactForce:
     """Force, moment, area and pressure of one contact.
 
     Attributes:
-        force: of the plane on the body; normal to the plane, as there is no friction.
+        force: on the body, of the plane, cylinder or sphere; on the surface, of the other one.
 
             *Shape:* (3,) in N.
         moment: about a given point.
 
             *Shape:* (3,) in N mm.
-        area: of the deformed surface nearer to the plane than the contact's ``penetration``, mm^2.
+        area: of the deformed surface nearer than the contact's ``penetration``, mm^2.
         peak_pressure: largest at a vertex, per deformed area, MPa: the average over the triangles
             around it. From point to point the pressure of a stiff contact oscillates, its averages
             do not.
-        gap: least signed distance of the surface from the plane, mm; in contact minus the
-            penetration.
+        gap: least signed distance of the surface, mm; in contact minus the
+            penetration. Infinite where another surface is not near.
     """
 
     force: Reals
@@ -64,13 +65,13 @@ def contact_forces(
 def _force(pair: ContactPair, solution: Solution, about: Reals) -> ContactForce:
     state, load, face = solution.state, solution.load, pair.face
     gaps, borne = pair.gaps(state, load), face.areas * pair.pressures(state, load)
-    normal = pair.plane(state, load).equation[:3]
+    pushes = borne[..., None] * np.where(borne[..., None] > 0, pair.normals(state, load), 0.0)
     deformed = (face.nodes + state.displacement)[face.triangles]
     places = np.einsum("qa,kai->kqi", face.shapes, deformed) - about
     areas = _areas(deformed)
     return ContactForce(
-        force=borne.sum() * normal,
-        moment=np.cross(np.einsum("kq,kqi->i", borne, places), normal),
+        force=pushes.sum(axis=(0, 1)),
+        moment=np.cross(places, pushes).sum(axis=(0, 1)),
         area=float(areas[gaps < pair.contact.penetration].sum()) if borne.any() else 0.0,
         peak_pressure=_peak(face.triangles[:, :3], borne, areas),
         gap=float(gaps.min(initial=np.inf)),

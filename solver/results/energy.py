@@ -12,8 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from solver.assembly.assembly import solid
-from solver.assembly.contact import contact_pairs
 from solver.assembly.free_rim import free_edges, place_of
+from solver.assembly.pairs.made import contact_pairs
 from solver.assembly.section import section_work
 from solver.assembly.swept_volume import swept_volume
 from solver.errors import SolverError

@@ -38,7 +38,9 @@ def _unloaded(problem: Problem) -> Integers:
     """Triangles (k, 6) that are neither pressurised nor cuts through the body."""
     planes = set(problem.supports.symmetry) - set(problem.supports.immovable)
     cuts = {*planes, problem.moving_plane, *problem.pressurised}
-    return problem.mesh.triangles(*(name for name in problem.mesh.surfaces if name not in cuts))
+    triangles = problem.mesh.triangles(*(n for n in problem.mesh.surfaces if n not in cuts))
+    _, first = np.unique(triangles, axis=0, return_index=True)  # surfaces may overlap
+    return triangles[np.sort(first)]
 
 
 def _rims(problem: Problem) -> Integers:

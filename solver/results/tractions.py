@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from solver.arrays import Reals
-from solver.assembly.contact import contact_pairs
+from solver.assembly.pairs.made import contact_pairs
 from solver.mesh.elements import triangle_rule
+from solver.problem.contacts import surfaces_of
 from solver.problem.loads import Traction, nodal_forces
 from solver.problem.springs import FoundationSpring, stiffness_matrix
 from solver.results.solution import Solution
@@ -20,8 +21,8 @@ def traction_forces(solution: Solution, surface: str) -> Reals:
     """Nodal forces (n, 3) of what holds a surface, N: its traction without the surface's loads.
 
     The integral of N_a sigma n over the deformed triangles, with the Cauchy stress that is averaged
-    at their nodes and quadratic between them. Pressure, dead tractions, springs and planes that act
-    on the surface itself are no part of what its support exerts.
+    at their nodes and quadratic between them. Pressure, dead tractions, springs and contacts
+    that act on the surface itself are no part of what its support exerts.
     """
     problem, rule = solution.problem, triangle_rule()
     mesh, cells = problem.mesh, problem.mesh.triangles(surface)
@@ -39,14 +40,15 @@ def traction_forces(solution: Solution, surface: str) -> Reals:
 
 
 def _loads_on(solution: Solution, surface: str) -> Reals:
-    """Nodal forces (n, 3) of dead tractions, springs and planes on a surface, N."""
+    """Nodal forces (n, 3) of dead tractions, springs and contacts on a surface, N."""
     problem, load = solution.problem, solution.load
     dead = [each for each in problem.loads if isinstance(each, Traction)]
     forces = load * nodal_forces(problem.mesh, [each for each in dead if each.surface == surface])
     springs = [each for each in problem.springs if isinstance(each, FoundationSpring)]
     stiffness = stiffness_matrix(problem.mesh, [s for s in springs if s.surface == surface])
     forces -= (stiffness @ solution.displacement.ravel()).reshape(-1, 3)
+    nodes = problem.mesh.surface_nodes(surface)
     for pair in contact_pairs(problem):
-        if pair.contact.surface == surface:
-            forces += pair.forces(solution.state, load)
+        if surface in surfaces_of(pair.contact):
+            forces[nodes] += pair.forces(solution.state, load)[nodes]
     return forces

@@ -10,15 +10,15 @@ import numpy as np
 
 from solver.arrays import Reals
 from solver.assembly.assembly import unbalanced_forces
-from solver.assembly.contact import contact_pairs
+from solver.assembly.pairs.made import contact_pairs
 from solver.assembly.section import Section
 from solver.assembly.state import State
 from solver.assembly.swept_volume import swept_volume
 from solver.errors import SolverError
 from solver.input_types import members_of
-from solver.problem.contacts import RigidPlane
 from solver.problem.loads import nodal_forces, plane_loads
 from solver.problem.problem import Problem
+from solver.problem.rigid_bodies import RigidBody
 from solver.problem.supports import fixed_displacements
 from solver.results.solution import Solution
 
@@ -31,7 +31,7 @@ class Work:
         pressure: by the pressure, N mm.
         loads: by dead loads, and by what is left of a stage before, N mm.
         supports: by supports that are led, N mm.
-        planes: by rigid planes that move, N mm.
+        planes: by rigid planes, cylinders and spheres that move, N mm.
     """
 
     pressure: float
@@ -53,7 +53,7 @@ def work(solutions: Sequence[Solution]) -> Work:
 
     Args:
         solutions: equilibria of one mesh in the order of the path, such as
-            ``(*solution.at_stops, solution)``, also of several stages. Rigid planes that stand in
+            ``(*solution.at_stops, solution)``, also of several stages. Rigid bodies that stand in
             the same place of ``Problem.contacts`` are the same.
 
     Returns:
@@ -80,7 +80,7 @@ def work(solutions: Sequence[Solution]) -> Work:
 class _Station:
     """What does work at a state.
 
-    ``dead`` and ``supports``: nodal forces (n, 3), N; ``planes``: forces (k, 3) of rigid planes and
+    ``dead`` and ``supports``: nodal forces (n, 3), N; ``planes``: forces (k, 3) of rigid bodies and
     their places; ``section``: couple (N mm) and axial force (N) on the moving plane (2,), and what
     they work on: tilt and displacement of the section's origin.
     """
@@ -140,13 +140,12 @@ def _remaining(solution: Solution) -> Reals:
 
 
 def _planes(problem: Problem, state: State, load: float) -> tuple[Reals, Reals]:
-    """Forces (k, 3) of rigid planes on the body, N, and the points nearest to the origin, mm."""
+    """Forces (k, 3) of rigid bodies on the body, N, and their places, mm."""
     forces, points = np.zeros((2, len(problem.contacts), 3))
     for number, pair in enumerate(contact_pairs(problem)):
-        if isinstance(pair.contact, RigidPlane):
+        if isinstance(pair.contact, RigidBody):
             forces[number] = pair.forces(state, load).sum(axis=0)
-            *normal, constant = pair.contact.equation(load)
-            points[number] = -constant * np.array(normal)
+            points[number] = pair.contact.place(load)
     return forces, points
 
 

@@ -1,10 +1,11 @@
 """Derivatives of the virtual work of contacts (``solver.assembly.contact``) by positions.
 
-A contact's energy is the integral of psi(g) over the reference area, g = n . x + c being the
-distance of a point from its plane. Along a direction, which may also tilt and shift the plane, the
-gap changes by dg, so that the work is the integral of psi' dg. Its derivative has parts by the
-area, by the deformed positions (g and dg change) and, at the moving plane, by where the plane is
-in the undeformed body. Which points touch is taken as it is: there psi'' is continuous.
+A contact's energy is the integral of psi(g) over the reference area, g being the distance of a
+point from its plane (or cylinder, or sphere). Along a direction, which may also tilt and shift the
+moving plane, the gap changes by dg, so that the work is the integral of psi' dg. Its derivative has
+parts by the area, by the deformed positions (g and dg change) and, at the moving plane, by where
+the plane is in the undeformed body. Which points touch is taken as it is: there psi'' is
+continuous.
 """
 
 from __future__ import annotations
@@ -14,11 +15,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from solver.arrays import Reals
-from solver.assembly.contact import ContactPair
+from solver.assembly.pairs.pair import ContactPair
+from solver.assembly.pairs.planes import PlanePair
 from solver.assembly.state import State
-from solver.kernels.contact import Plane, contact_slopes
+from solver.kernels.contact import contact_slopes
 from solver.problem.contacts import on_moving_plane
-from solver.sensitivity.surface_integrals import area_derivative, at_points, spread
+from solver.sensitivity.surface_integrals import area_derivative
 from solver.sensitivity.unknowns import Direction
 
 
@@ -46,24 +48,20 @@ class _Touch:
     """
 
     pair: ContactPair
-    plane: Plane
-    turn: float
+    state: State
+    load: float
+    direction: Direction
     slopes: Reals
     curvatures: Reals
     changes: Reals
 
     @staticmethod
     def of(pair: ContactPair, state: State, load: float, direction: Direction) -> _Touch:
-        """Gaps and their changes; the plane turns and shifts only if it is the moving plane."""
-        plane, triangles = pair.plane(state, load), pair.face.triangles
-        gaps = pair.gaps(state, load)
-        turn, shift = direction.plane if on_moving_plane(pair.contact) else (0.0, 0.0)
-        places = at_points(pair.face.nodes + state.displacement, triangles)
-        changes = at_points(direction.displacement, triangles) @ plane.equation[:3]
-        changes += turn * (places @ plane.turned[:3] + plane.turned[3]) + shift * plane.shifted
-        curvatures = contact_slopes(pair.face, gaps)
+        """Gaps and their changes."""
+        changes = pair.changes(state, load, direction.displacement, direction.plane)
+        curvatures = contact_slopes(pair.face, pair.gaps(state, load))
         slopes = -pair.pressures(state, load)
-        return _Touch(pair, plane, float(turn), slopes, curvatures, changes)
+        return _Touch(pair, state, load, direction, slopes, curvatures, changes)
 
     @property
     def density(self) -> Reals:
@@ -72,11 +70,10 @@ class _Touch:
 
     def by_deformed_position(self) -> Reals:
         """Derivative (n, 3) by x, N."""
-        weighted = self.pair.face.areas * self.curvatures * self.changes
-        vectors = weighted[..., None] * self.plane.equation[:3]
-        turning = self.turn * self.pair.face.areas * self.slopes
-        vectors += turning[..., None] * self.plane.turned[:3]
-        return spread(len(self.pair.face.nodes), self.pair.face.triangles, vectors)
+        pair, areas = self.pair, self.pair.face.areas
+        at, along = (self.state, self.load), (self.direction.displacement, self.direction.plane)
+        pushed = pair.gathered(*at, areas * self.curvatures * self.changes)
+        return pushed + pair.bent(*at, areas * self.slopes, *along)
 
     def by_area(self) -> Reals:
         """Derivative (n, 3) by the reference area at fixed gaps, N."""
@@ -89,9 +86,12 @@ class _Touch:
         It enters the plane's equation as the shift does.
         """
         problem, result = self.pair.problem, np.zeros_like(self.pair.face.nodes)
-        if on_moving_plane(self.pair.contact) and problem.moving_plane is not None:
-            changes = self.curvatures * self.changes * self.plane.shifted
-            changes += self.slopes * self.turn * self.plane.shifted_turned
-            node = problem.mesh.surface_nodes(problem.moving_plane)[0]
-            result[node, 0] = (self.pair.face.areas * changes).sum()
+        if not isinstance(self.pair, PlanePair) or not on_moving_plane(self.pair.contact):
+            return result
+        assert problem.moving_plane is not None
+        plane = self.pair.plane(self.state, self.load)
+        changes = self.curvatures * self.changes * plane.shifted
+        changes += self.slopes * float(self.direction.plane[0]) * plane.shifted_turned
+        node = problem.mesh.surface_nodes(problem.moving_plane)[0]
+        result[node, 0] = (self.pair.face.areas * changes).sum()
         return result

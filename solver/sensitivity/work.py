@@ -17,7 +17,8 @@ from numpy.typing import NDArray
 from solver.arrays import Reals
 from solver.assembly.assembly import NO_SUPPORTS, Assembly, solid
 from solver.assembly.colouring import chunks
-from solver.assembly.contact import ContactPair, contact_pairs
+from solver.assembly.pairs.made import contact_pairs
+from solver.assembly.pairs.pair import ContactPair
 from solver.assembly.state import State
 from solver.kernels.assembly import Places, assemble
 from solver.kernels.element import Solid

@@ -1,24 +1,33 @@
-"""The law of half a bubble in the middle of the actuator, tabulated from the unit cell."""
+"""A design's law: what an evaluation knows of its unit cell, and the table on its coarsest mesh."""
 
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass
+from dataclasses import replace
+from datetime import UTC, datetime
 from typing import TYPE_CHECKING
 
+from bellows_design.analysis.error_estimate import error_estimate
 from bellows_design.budget import DEFAULT, Budget
 from bellows_design.design.design import Design
 from bellows_design.errors import BellowsError
-from bellows_design.force.law.building import Builder, aim_of
-from bellows_design.force.law.continuation import Continuation
-from bellows_design.force.law.table import Table
-from bellows_design.force.law.tabulated import TabulatedLaw
-from bellows_design.force.section_law import SectionResponse
+from bellows_design.force.law.computation.building import Builder, aim_of
+from bellows_design.force.law.computation.continuation import Continuation, Solved
+from bellows_design.force.law.computation.meshes import Correction
+from bellows_design.force.law.ends import EndHinge, end_hinge
+from bellows_design.force.law.errors import LawError, ends_error
+from bellows_design.force.law.half_bubble import CellLaw, Effort
+from bellows_design.force.law.interpolation.tabulated import TabulatedLaw
+from bellows_design.force.law.kept import find, keep, key_of_law
 from bellows_design.progress import SILENCE, Progress
-from solver.arrays import Reals
 
 if TYPE_CHECKING:
-    from solver import Mesh
+    from bellows_design.analysis.computation import Computation
+    from bellows_design.evaluation import Evaluation
+    from bellows_design.store.key import Key
+    from bellows_design.store.store import Store
+
+__all__ = ["CellLaw", "cell_law"]
 
 TOLERANCE = 0.005
 """Of the interpolated rotation, relative to the free rotation at the design's pressure."""
@@ -27,86 +36,139 @@ FIRST_ROWS = (0.0, 0.25, 0.5, 1.0)
 """Pressures of the first rows, relative to the design's."""
 
 
-@dataclass(frozen=True)
-class CellLaw:
-    """Half a bubble of a design, between its middle and that of the gap beside it.
-
-    Attributes:
-        design: whose bubbles they are.
-        tabulated: the law by interpolation.
-        free_rotation: at the design's pressure, rad.
-        factorizations: of the solver's tangent, in all.
-        seconds: that it took, s.
-    """
-
-    design: Design
-    tabulated: TabulatedLaw
-    free_rotation: float
-    factorizations: int
-    seconds: float
-
-    @property
-    def length(self) -> float:
-        """Half of the bubbles' pitch, mm."""
-        return self.tabulated.length
-
-    @property
-    def table(self) -> Table:
-        """The equilibria."""
-        return self.tabulated.table
-
-    def response(self, pressure: float, loads: Reals) -> SectionResponse:
-        """The answer to ``pressure`` (MPa) and to section loads (k, 3): moment, axial, shear.
-
-        Beyond the moments of the table the compliance stays constant; ``within`` tells. Raises
-        ``BellowsError`` for a pressure beyond those of the table.
-        """
-        return self.tabulated.response(pressure, loads)
-
-    def within(self, pressure: float, loads: Reals) -> bool:
-        """Whether the moments of section loads (k, 3) at a pressure (MPa) are in the table."""
-        return self.tabulated.within(pressure, loads)
-
-
 def cell_law(
     design: Design,
     tolerance: float = TOLERANCE,
     progress: Progress = SILENCE,
     budget: Budget = DEFAULT,
+    store: Store | None = None,
 ) -> CellLaw:
     """The law of a design's half bubbles, from no pressure to the design's.
 
+    Its table is computed on the coarsest mesh of an evaluation, and corrected by the finest one's
+    rotation.
+
     Args:
-        design: whose unit cell is solved, on its coarsest mesh.
+        design: whose unit cell is solved.
         tolerance: of the interpolated rotation, relative to the free rotation at the design's
             pressure.
         progress: listens to stages.
-        budget: memory of the mesh, and seconds after which nothing more is refined.
+        budget: of the evaluation; seconds also of the table, after which it is not refined.
+        store: where evaluation and law are looked for, and kept; None for none.
 
     Raises:
         BellowsError: a geometry the CAD kernel refuses, a mesh beyond the budget, or a pressure
             that the cell does not reach.
         MeshingError: no usable mesh, or none in time.
     """
-    began = time.monotonic()
-    progress.stage("mesh of the unit cell")
-    cell = Continuation.of(design, _coarsest_mesh(design, budget))
-    pressure = design.load.pressure
-    free, reached = cell.from_zero(tuple(share * pressure for share in FIRST_ROWS[1:]))
-    if len(free) + 1 < len(FIRST_ROWS):
-        raise BellowsError(f"the section's law: without a moment the cell {reached}")
-    at_rest, _ = cell.from_zero((0.0,))
-    rotation = free[-1].point.rotation
-    deadline = began + budget.seconds
-    builder = Builder(cell, aim_of(rotation, tolerance), note=progress.stage, deadline=deadline)
-    builder.start([*at_rest, *free])
+    key = key_of_law(design, tolerance, budget)
+    kept = find(store, key, design)
+    if kept is not None:
+        return kept
+    computation = _evaluated(design, progress, budget, store).computation
+    law = _made(computation, tolerance, progress)
+    if computation.in_time and law.error.complete:
+        _keep(store, key, law, progress)
+    return law
+
+
+def _keep(store: Store | None, key: Key, law: CellLaw, progress: Progress) -> None:
+    """Keep a law, or note that it could not be."""
+    from bellows_design.store.store import written
+
+    try:
+        keep(store, key, replace(law, from_cache=written(datetime.now(UTC))))
+    except OSError as error:
+        progress.note(f"the section's law is not kept: {error}")
+
+
+def _evaluated(
+    design: Design, progress: Progress, budget: Budget, store: Store | None
+) -> Evaluation:
+    """The ordinary evaluation where that is by the unit cell."""
+    from bellows_design.analysis.model_names import ModelName
+    from bellows_design.analysis.models import UNIT_CELL, choose
+    from bellows_design.store import evaluated
+
+    usual = choose(design)[0] is UNIT_CELL
+    model = "auto" if usual else ModelName.UNIT_CELL.value
+    found = evaluated(design, model, progress=progress, budget=budget, store=store)
+    if not found.converged:
+        raise BellowsError(f"there is no law of the bubbles: {found.message}")
+    return found
+
+
+def _made(computation: Computation, tolerance: float, progress: Progress) -> CellLaw:
+    """The law, from an evaluation of the unit cell that converged."""
+    began, design = time.monotonic(), computation.design
+    mesh = computation.solutions[0].problem.mesh
+    cell = Continuation.of(design, mesh)
+    free = _free(cell, design.load.pressure)
+    builder = _built(cell, free, tolerance, progress, began + computation.budget.seconds)
+    progress.stage("section's law: finer meshes and ends")
+    row = builder.rows[free[-1].point.pressure].row
+    correction = Correction.of(computation, row)
+    on_mesh = TabulatedLaw(
+        design.bellows.pitch / 2, builder.table, volume_at_rest=free[0].point.volume
+    )
+    end = _end(computation, on_mesh, free)
+    corrected = replace(
+        on_mesh,
+        softening=correction.softening,
+        shear_compliance=cell.shear_compliance(free[-1]),
+    )
+    return CellLaw(
+        design=design,
+        tabulated=corrected,
+        end=end,
+        free_rotation=correction.softening * free[-1].point.rotation,
+        stress_factor=correction.stress_factor,
+        error=_error(computation, builder, correction, end),
+        mesh=mesh,
+        effort=Effort(cell.factorizations, time.monotonic() - began),
+    )
+
+
+def _built(
+    cell: Continuation, free: list[Solved], tolerance: float, progress: Progress, deadline: float
+) -> Builder:
+    """The rows."""
+    aim = aim_of(free[-1].point.rotation, tolerance)
+    builder = Builder(cell, aim, note=progress.stage, deadline=deadline)
+    builder.start(free)
     builder.refine()
-    law = TabulatedLaw(design.bellows.pitch / 2, builder.table)
-    return CellLaw(design, law, rotation, cell.factorizations, time.monotonic() - began)
+    return builder
 
 
-def _coarsest_mesh(design: Design, budget: Budget) -> Mesh:
-    from bellows_design.analysis.mesh_plan import first_plan
-    from bellows_design.analysis.models import UNIT_CELL
+def _end(computation: Computation, law: TabulatedLaw, free: list[Solved]) -> EndHinge:
+    """What either end adds, on meshes of the same size."""
+    apart = law.table.apart
+    assert computation.ends is not None  # an evaluation by the unit cell has them
+    pressures = tuple(each.point.pressure for each in free)
+    return end_hinge(computation.ends.problem, law if apart is None else law.on(apart), pressures)
 
-    return first_plan(UNIT_CELL.solid(design), design).made(budget)
+
+def _error(
+    computation: Computation, builder: Builder, correction: Correction, end: EndHinge
+) -> LawError:
+    assert computation.ends is not None
+    pressure = computation.design.load.pressure
+    last = next(point for point in end.points if point.pressure == pressure)
+    free = builder.rows[pressure].nearest(0.0).point.rotation
+    with_stubs = computation.ends.problem.moving_plane is None
+    return LawError(
+        interpolation=builder.worst,
+        mesh=correction.error,
+        ends=ends_error(last, free, with_stubs),
+        stress_percent=error_estimate(computation).max_von_mises_percent,
+        complete=not builder.late,
+    )
+
+
+def _free(cell: Continuation, pressure: float) -> list[Solved]:
+    """Without a moment, at the pressures of the first rows. Raises ``BellowsError``."""
+    at_rest, _ = cell.from_zero((0.0,))
+    loaded, reached = cell.from_zero(tuple(share * pressure for share in FIRST_ROWS[1:]))
+    if len(loaded) + 1 < len(FIRST_ROWS):
+        raise BellowsError(f"there is no law of the bubbles: {reached}")
+    return [*at_rest, *loaded]

@@ -33,7 +33,7 @@ from solver.paths.volume.checks import (
     volume_at_start,
 )
 from solver.paths.volume.held import HeldVolume, at_volume
-from solver.problem.contacts import planes_move
+from solver.problem.contacts import bodies_move
 from solver.problem.problem import Problem
 from solver.results.solution import PathPoint, Solution
 
@@ -103,7 +103,7 @@ def _loaded(
     if after is not None and _goes_on(problem, after.problem):
         start = replace(after, path=after.path[-1:], converged=True, seconds=0.0)
         return replace(start, newton_iterations=0, factorizations=0, load_steps=0, refused_steps=0)
-    led = problem.supports.prescribed or planes_move(problem.contacts)
+    led = problem.supports.prescribed or bodies_move(problem.contacts)
     if problem.loads or led or after is not None:
         pressure = Loading.of(problem, 0.0, after).pressures[0]
         return solve(problem, pressure, options, listener, after=after)
@@ -116,7 +116,7 @@ def _goes_on(problem: Problem, former: Problem) -> bool:
         (each.loads, each.supports, set(each.pressurised), each.contacts, each.springs)
         for each in (problem, former)
     )
-    return ours == theirs and not problem.supports.prescribed and not planes_move(problem.contacts)
+    return ours == theirs and not problem.supports.prescribed and not bodies_move(problem.contacts)
 
 
 def _newton(

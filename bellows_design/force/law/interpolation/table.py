@@ -18,10 +18,10 @@ from functools import cached_property, lru_cache
 import numpy as np
 
 from bellows_design.errors import BellowsError
-from bellows_design.force.law.coordinates import Coordinates, hermite_weights
-from bellows_design.force.law.polynomials import Piecewise, evaluated, pieces
-from bellows_design.force.law.row_fields import row_fields
-from bellows_design.force.law.rows import Row
+from bellows_design.force.law.interpolation.coordinates import Coordinates, hermite_weights
+from bellows_design.force.law.interpolation.polynomials import Piecewise, evaluated, pieces
+from bellows_design.force.law.interpolation.row_fields import row_fields
+from bellows_design.force.law.interpolation.rows import Row
 from solver.arrays import Reals
 
 
@@ -86,6 +86,16 @@ class Table:
         """The table with another row, or with a new one of the same pressure."""
         others = [each for each in self.rows if each.pressure != row.pressure]
         return Table(tuple(sorted((*others, row), key=lambda each: each.pressure)))
+
+    @property
+    def apart(self) -> Table | None:
+        """The same without neighbours: rows as far as these do not touch; None if one has none.
+
+        Where they would touch, the compliance stays what it was.
+        """
+        rows = [row.apart for row in self.rows]
+        known = tuple(row for row in rows if row is not None)
+        return Table(known) if len(known) == len(rows) else None
 
     def interval(self, pressure: float) -> int:
         """Number of the row below a pressure. Raises ``BellowsError`` beyond the rows."""

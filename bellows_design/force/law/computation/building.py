@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bellows_design.errors import BellowsError
-from bellows_design.force.law.continuation import Continuation, Solved
-from bellows_design.force.law.table import Table
-from bellows_design.force.law.walking import Aim, SolvedRow, refined, walked
+from bellows_design.force.law.computation.continuation import Continuation, Solved
+from bellows_design.force.law.computation.walking import Aim, SolvedRow, refined, walked
+from bellows_design.force.law.interpolation.table import Table
 
 if TYPE_CHECKING:
-    from bellows_design.force.law.points import SectionPoint
+    from bellows_design.force.law.interpolation.points import SectionPoint
 
 LEAST_SHARE = 1 / 64
 """Of the pressures' range; no row is added between rows that are nearer to each other."""
@@ -76,6 +76,11 @@ class Builder:
         self.note(f"section's law at {pressure:.4g} MPa")
         self.rows[pressure] = refined(self.cell, walked(self.cell, begun, self.aim), self.aim)
 
+    @property
+    def worst(self) -> float:
+        """Largest error at the checks, rad."""
+        return max((check.error for check in self.checks), default=0.0)
+
     def refine(self) -> None:
         """Rows between others as long as points between them are not well interpolated."""
         pressures = sorted(self.rows)
@@ -93,14 +98,14 @@ class Builder:
             open_intervals += [(low, middle), (middle, high)]
 
     def _checked(self, pressure: float) -> tuple[list[Solved], list[Check]]:
-        """Points between rows: free, where neighbours begin to touch, and pressed together."""
+        """Points between rows: where neighbours begin to touch, and where they press each other."""
         table = self.table
         low, _ = table.reach(pressure)
-        onset = table.curves(pressure).origin or low / 2
+        onset = table.curves(pressure).origin
         near = min(self.rows, key=lambda each: abs(each - pressure))
-        at = self.rows[near].nearest(0.0)
+        at = self.rows[near].nearest(onset)
         solved: list[Solved] = []
-        for moment in (0.0, onset, (onset + low) / 2):
+        for moment in (onset, (onset + low) / 2):
             found = self.cell.beside(at, pressure, moment)
             if isinstance(found, str):
                 break

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from bellows_design.force.law.derivatives import curvatures, slopes
-from bellows_design.force.law.polynomials import Piecewise, hermite
-from bellows_design.force.law.rows import Row
+from bellows_design.force.law.interpolation.derivatives import curvatures, slopes
+from bellows_design.force.law.interpolation.polynomials import Piecewise, hermite
+from bellows_design.force.law.interpolation.rows import Row
 from solver.arrays import Reals
 
 Columns = tuple[Reals, Reals, Reals]

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-from bellows_design.force.law.continuation import Continuation, Solved
-from bellows_design.force.law.rows import Row, doubt, meeting
+from bellows_design.force.law.computation.continuation import Continuation, Solved
+from bellows_design.force.law.interpolation.rows import Row, doubt, meeting
 
 GROWTH = 2.0
 """Largest ratio of a step in the moment to the one before."""

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bellows_design.force.law.rows import Row
+from bellows_design.force.law.interpolation.rows import Row
 from solver.arrays import Reals
 
 

@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from bellows_design.force.law.points import SectionPoint
+from bellows_design.force.law.interpolation.points import SectionPoint
 from solver.arrays import Reals
 
 
@@ -53,6 +53,10 @@ class Row:
         """The row with a point more."""
         points = sorted((*self.points, point), key=lambda each: each.moment)
         return replace(self, points=tuple(points))
+
+    def nearest(self, moment: float) -> SectionPoint:
+        """The point nearest to a moment (N mm)."""
+        return min(self.points, key=lambda point: abs(point.moment - moment))
 
     @property
     def apart(self) -> Row | None:

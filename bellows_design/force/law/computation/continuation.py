@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
-from bellows_design.force.law.points import HALVES, SectionPoint
+from bellows_design.force.law.interpolation.points import HALVES, SectionPoint
 
 if TYPE_CHECKING:
     from bellows_design.design.design import Design
@@ -68,6 +68,10 @@ class Continuation:
         reached = [*found.at_stops, *([found] if found.converged else [])]
         return [self._solved(each, 0.0, None) for each in reached], found.message
 
+    def known(self, solution: Solution) -> Solved:
+        """An equilibrium on this mesh without a couple that is at hand."""
+        return self._solved(solution, 0.0, None)
+
     def beside(self, near: Solved, pressure: float, moment: float) -> Solved | str:
         """The equilibrium at a pressure (MPa) and moment (N mm), full width, or why there is none.
 
@@ -79,6 +83,16 @@ class Continuation:
                 return found
             found = self._in_steps(near, pressure, moment, 2**halving)
         return found
+
+    def shear_compliance(self, free: Solved) -> float:
+        """Slip by shear force of the full width, mm per N; 0 where it cannot be told."""
+        from solver import shear_compliance
+        from solver.errors import SolverError
+
+        try:
+            return shear_compliance(free.solution) / HALVES
+        except SolverError:  # inner walls touch at the bubble's middle
+            return 0.0
 
     def _in_steps(self, near: Solved, pressure: float, moment: float, steps: int) -> Solved | str:
         start, at = near.point, near

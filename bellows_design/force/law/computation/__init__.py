@@ -1,0 +1,1 @@
+"""Equilibria of the unit cell for the table, by continuation."""

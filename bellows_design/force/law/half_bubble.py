@@ -1,0 +1,95 @@
+"""The law of half a bubble in the middle of an actuator, and of its ends, from its unit cell."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+from bellows_design.design.design import Design
+from bellows_design.force.law.ends import EndHinge
+from bellows_design.force.law.errors import LawError
+from bellows_design.force.law.interpolation.readings import gaps, highest_stress
+from bellows_design.force.law.interpolation.table import Table
+from bellows_design.force.law.interpolation.tabulated import TabulatedLaw
+from bellows_design.force.section_law import SectionResponse
+from solver.arrays import Reals
+from solver.mesh.mesh import Mesh
+
+
+@dataclass(frozen=True)
+class Effort:
+    """What a law took: factorizations of the solver's tangent, and s."""
+
+    factorizations: int
+    seconds: float
+
+
+@dataclass(frozen=True, eq=False)
+class CellLaw:
+    """Half a bubble of a design, between its middle and that of the gap beside it.
+
+    Attributes:
+        design: whose bubbles they are.
+        tabulated: the law by interpolation.
+        end: what either end adds: a hinge between the stub and the outer half bubble.
+        free_rotation: of half a bubble at the design's pressure, rad.
+        stress_factor: highest stress on the finest mesh of an evaluation over that on the table's.
+        error: estimated.
+        mesh: on which the table was computed.
+        effort: what it took.
+        from_cache: when it was computed (UTC), where it comes from the store; else empty.
+    """
+
+    design: Design
+    tabulated: TabulatedLaw
+    end: EndHinge
+    free_rotation: float
+    stress_factor: float
+    error: LawError
+    mesh: Mesh
+    effort: Effort
+    from_cache: str = ""
+
+    @property
+    def length(self) -> float:
+        """Half of the bubbles' pitch, mm."""
+        return self.tabulated.length
+
+    @property
+    def table(self) -> Table:
+        """The equilibria."""
+        return self.tabulated.table
+
+    def response(self, pressure: float, loads: Reals) -> SectionResponse:
+        """The answer to ``pressure`` (MPa) and to section loads (k, 3): moment, axial, shear.
+
+        Beyond the moments of the table the compliance stays constant; ``within`` tells. Raises
+        ``BellowsError`` for a pressure beyond those of the table.
+        """
+        return self.tabulated.response(pressure, loads)
+
+    def within(self, pressure: float, loads: Reals) -> bool:
+        """Whether the moments of section loads (k, 3) at a pressure (MPa) are in the table."""
+        return self.tabulated.within(pressure, loads)
+
+    @cached_property
+    def without_contact(self) -> TabulatedLaw:
+        """The outer halves of the first and the last bubble, which no neighbour stops.
+
+        Where neighbours would touch, the compliance stays what it was before. Where they touch
+        without a moment already, the law with contact stands for it.
+        """
+        apart = self.table.apart
+        return self.tabulated if apart is None else self.tabulated.on(apart)
+
+    def touching(self, pressure: float, loads: Reals) -> bool:
+        """Whether neighbouring bubbles touch under section loads (k, 3) at a pressure (MPa)."""
+        return bool((gaps(self.table, pressure, loads[:, 0]) <= 0).any())
+
+    def stress(self, pressure: float, loads: Reals) -> tuple[float, float | None]:
+        """Highest von Mises stress (MPa) of pieces under section loads (k, 3), and its error (%).
+
+        Only moments count.
+        """
+        highest = float(highest_stress(self.table, pressure, loads[:, 0]).max())
+        return self.stress_factor * highest, self.error.stress_percent

@@ -1,0 +1,1 @@
+"""The law between computed equilibria: one potential of pressure and section loads."""

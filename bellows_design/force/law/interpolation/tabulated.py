@@ -1,0 +1,90 @@
+"""A section's law from a table."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from bellows_design.force.law.interpolation.table import Fields, Table
+from bellows_design.force.section_law import SectionResponse
+from solver.arrays import Reals
+
+
+@dataclass(frozen=True, eq=False)
+class TabulatedLaw:
+    """A ``SectionLaw`` by interpolation.
+
+    Attributes:
+        length: of the piece at rest, mm.
+        table: its equilibria.
+        softening: factor on all motion, and on the volume beyond that at rest: a coarse mesh is too
+            stiff.
+        volume_at_rest: mm^3.
+        shear_compliance: slip by shear force, mm per N.
+    """
+
+    length: float
+    table: Table
+    softening: float = 1.0
+    volume_at_rest: float = 0.0
+    shear_compliance: float = 0.0
+
+    def on(self, table: Table) -> TabulatedLaw:
+        """The same law of another table."""
+        return replace(self, table=table)
+
+    def response(self, pressure: float, loads: Reals) -> SectionResponse:
+        """The answer to ``pressure`` (MPa) and to section loads (k, 3): moment, axial, shear.
+
+        Beyond the moments of the table the compliance stays constant; ``within`` tells.
+
+        Raises:
+            BellowsError: a pressure beyond those of the table.
+        """
+        found = self._on_the_mesh(pressure, loads)
+        soft, rest, shear = self.softening, self.volume_at_rest, loads[:, 2]
+        motion, compliance = soft * found.motion, soft * found.compliance
+        motion[:, 2] = self.shear_compliance * shear
+        compliance[:, 2, 2] = self.shear_compliance
+        slipped = self.shear_compliance * shear**2 / 2
+        return SectionResponse(
+            energy=soft * found.energy + (1 - soft) * pressure * rest + slipped,
+            motion=motion,
+            compliance=compliance,
+            volume=soft * found.volume + (1 - soft) * rest,
+            motion_by_pressure=soft * found.motion_by_pressure,
+        )
+
+    def _on_the_mesh(self, pressure: float, loads: Reals) -> SectionResponse:
+        """By moment and axial force, as on the mesh of the table."""
+        moment, axial = loads[:, 0], loads[:, 1]
+        fields = self.table.curves(pressure).fields(moment)
+        by_axial = np.stack([np.ones_like(axial), axial, axial**2 / 2], axis=1)
+        extension = fields.value[:, 1] + axial * fields.value[:, 2]
+        motion, rate = np.zeros((2, len(loads), 3))
+        motion[:, 0], motion[:, 1] = (fields.by_moment * by_axial).sum(axis=1), extension
+        rate[:, 0] = (fields.by_both * by_axial).sum(axis=1)
+        rate[:, 1] = fields.by_pressure[:, 1] + axial * fields.by_pressure[:, 2]
+        return SectionResponse(
+            energy=(fields.value * by_axial).sum(axis=1),
+            motion=motion,
+            compliance=_compliance(fields, by_axial, axial),
+            volume=(fields.by_pressure * by_axial).sum(axis=1),
+            motion_by_pressure=rate,
+        )
+
+    def within(self, pressure: float, loads: Reals) -> bool:
+        """Whether the moments of section loads (k, 3) at a pressure (MPa) are in the table."""
+        low, high = self.table.reach(pressure)
+        return bool((loads[:, 0] >= low).all() and (loads[:, 0] <= high).all())
+
+
+def _compliance(fields: Fields, by_axial: Reals, axial: Reals) -> Reals:
+    """Of rotation and extension by moment and axial force, in (k, 3, 3)."""
+    result = np.zeros((len(axial), 3, 3))
+    result[:, 0, 0] = (fields.by_moment_twice * by_axial).sum(axis=1)
+    coupling = fields.by_moment[:, 1] + axial * fields.by_moment[:, 2]
+    result[:, 0, 1] = result[:, 1, 0] = coupling
+    result[:, 1, 1] = fields.value[:, 2]
+    return result

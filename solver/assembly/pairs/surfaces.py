@@ -1,0 +1,237 @@
+"""Contact of two surfaces of one body.
+
+The gap of a point x_s of one surface is its signed distance g = (x_s - x_m) . n from the closest
+point x_m of the other one, n being its outward normal there. The closest point slides as the
+surfaces move. With A the derivative of x_s - x_m by the nodes at fixed parameters of x_m, a_c the
+tangents, k_cd = n . x_m,cd, m_cd = a_c . a_d, D = m - g k, and T_c the derivative of -n . a_c by
+the nodes, eliminating the parameters from |x_s - x_m|^2 / 2 gives
+
+    dg/dq     = A^T n,
+    d2g/dq2   = -A^T a m^-1 k D^-1 a^T A - (A^T a D^-1 T^T + its transpose) - g T D^-1 T^T,
+
+which holds as g vanishes (T. A. Laursen, *Computational Contact and Impact Mechanics*, 2002,
+chapter 5, has the same in other symbols). Between triangles the surface has kinks: a point behind a
+re-entrant one, of which no triangle has a closest point inside, has the distance from the edge or
+corner, and that one's derivatives, with the term A^T (1 - n n^T - a m^-1 a^T) A / g in addition.
+Beyond the rim of the other surface nothing is touched, but for points nearly straight behind it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from solver.arrays import Integers, Reals
+from solver.assembly.pairs.pair import ContactPair, PlaneUnknowns, at_nodes, at_points, face_of
+from solver.assembly.state import State
+from solver.kernels.surface_contact import (
+    Feet,
+    Numbers,
+    assemble_surface_contact,
+    bent_gaps,
+    find_feet,
+)
+from solver.linear.sparsity import Pattern
+from solver.mesh.elements import quadratic_shapes, triangle_rule
+from solver.mesh.proximity import OPPOSING, PARTS
+from solver.problem.contacts import SurfaceContact
+from solver.problem.problem import Problem
+from solver.problem.unknowns import Numbering
+
+CANDIDATES = 6
+"""Nearest flat facets of the other surface in whose triangles a closest point is looked for."""
+
+
+class Other(NamedTuple):
+    """The other surface.
+
+    ``triangles`` (k, 6), their ``neighbours`` (k, 3) across the edges, -1 for none, and ``dofs``
+    (k, 18); ``reach``: how deep points count, mm.
+    """
+
+    triangles: Integers
+    neighbours: Numbers
+    dofs: Integers
+    reach: float
+
+
+@dataclass
+class Memory:
+    """The feet found last and the positions (n, 3) that they belong to."""
+
+    positions: Reals = field(default_factory=lambda: np.empty((0, 3)))
+    feet: Feet | None = None
+
+
+@dataclass(frozen=True)
+class SurfacePair(ContactPair):
+    """Contact of a surface with another one of the same body."""
+
+    contact: SurfaceContact
+    other: Other
+    memory: Memory
+
+    @staticmethod
+    def of(problem: Problem, contact: SurfaceContact, numbering: Numbering) -> SurfacePair:
+        """The contact with its triangles' quadrature and numbers of unknowns."""
+        mesh = problem.mesh
+        triangles = mesh.triangles(contact.other)
+        other = Other(
+            triangles=triangles,
+            neighbours=edge_neighbours(triangles),
+            dofs=numbering.of_triangles(triangles),
+            reach=contact.reach or mesh.edge,
+        )
+        dofs = numbering.of_triangles(mesh.triangles(contact.surface))
+        return SurfacePair(problem, contact, face_of(problem, contact, dofs), other, Memory())
+
+    def feet(self, state: State) -> Feet:
+        """Closest points of the other surface to the quadrature points."""
+        memory = self.memory
+        positions = self.face.nodes + state.displacement
+        if memory.feet is None or not np.array_equal(memory.positions, positions):
+            memory.feet, memory.positions = self._found(positions), positions
+        return memory.feet
+
+    def gaps(self, state: State, load: float) -> Reals:
+        """Signed distances (k, q) from the other surface, mm; infinite where it is not near."""
+        return self.feet(state).gaps.reshape(self.face.areas.shape)
+
+    def normals(self, state: State, load: float) -> Reals:
+        """Directions (k, q, 3) away from the other surface; zero where it is not near."""
+        return self.feet(state).normals.reshape(*self.face.areas.shape, 3)
+
+    def coupled(self, state: State) -> Numbers:
+        """Pairs of triangles (j,) that touch, each as a number: ``numbers``."""
+        feet = self.feet(state)
+        return np.unique(self._numbers(feet, np.flatnonzero(feet.gaps < 0)))
+
+    def around(self, pairs: Numbers) -> Numbers:
+        """Pairs of triangles and of those across their edges."""
+        own, other = np.divmod(pairs, len(self.other.triangles))
+        both = _with_neighbours(own, edge_neighbours(self.face.triangles))
+        beyond = _with_neighbours(other, self.other.neighbours)
+        first = np.repeat(both, beyond.shape[1], axis=1).ravel()
+        last = np.tile(beyond, (1, both.shape[1])).ravel()
+        usable = (first >= 0) & (last >= 0)
+        return np.unique(first[usable] * len(self.other.triangles) + last[usable])
+
+    def pair_dofs(self, pairs: Numbers) -> Integers:
+        """Unknowns (j, 36) of pairs of triangles."""
+        own, other = np.divmod(pairs, len(self.other.triangles))
+        return np.hstack([self.face.dofs[own], self.other.dofs[other]])
+
+    def add(
+        self,
+        state: State,
+        load: float,
+        plane: PlaneUnknowns,
+        residual: Reals,
+        values: Reals,
+        pattern: Pattern | None,
+    ) -> None:
+        """Add forces and tangent; there is no moving plane beside contact of surfaces."""
+        feet = self.feet(state)
+        points: Numbers = np.flatnonzero(feet.gaps < 0)
+        pairs, numbers = np.unique(self._numbers(feet, points), return_inverse=True)
+        dofs = np.ascontiguousarray(self.pair_dofs(pairs))
+        entries = np.empty((len(dofs), 0), np.int32) if pattern is None else pattern.entries(dofs)
+        assemble_surface_contact(
+            self.face, feet, self.face.nodes + state.displacement, self.other.triangles, points,
+            numbers, dofs, entries, pattern is not None, residual, values,
+        )  # fmt: skip
+
+    def forces(self, state: State, load: float) -> Reals:
+        """Nodal forces (n, 3) on both surfaces, N; in balance."""
+        return self.gathered(state, load, self.face.areas * self.pressures(state, load))
+
+    def changes(self, state: State, load: float, along: Reals, motion: Reals) -> Reals:
+        """Changes of the gaps along displacements."""
+        feet = self.feet(state)
+        moved = at_points(self.face, along).reshape(-1, 3)
+        beneath = np.einsum("pa,pai->pi", self._shapes(feet), along[self._nodes(feet)])
+        changes = ((moved - beneath) * feet.normals).sum(axis=1)
+        return np.asarray(changes.reshape(self.face.areas.shape))
+
+    def gathered(self, state: State, load: float, weights: Reals) -> Reals:
+        """Derivative (n, 3) of the weighted gaps by displacements."""
+        feet = self.feet(state)
+        vectors = weights[..., None] * self.normals(state, load)
+        parts = -self._shapes(feet)[..., None] * vectors.reshape(-1, 1, 3)
+        nodes, size = self._nodes(feet).ravel(), len(self.face.nodes)
+        opposite = [np.bincount(nodes, parts[..., i].ravel(), size) for i in range(3)]
+        return at_nodes(self.face, vectors) + np.stack(opposite, axis=1)
+
+    def bent(self, state: State, load: float, weights: Reals, along: Reals, motion: Reals) -> Reals:
+        """Derivative (n, 3) of the weighted changes by displacements."""
+        positions = self.face.nodes + state.displacement
+        feet, triangles = self.feet(state), self.other.triangles
+        bent: Reals = bent_gaps(self.face, feet, positions, triangles, weights, along)
+        return bent
+
+    def _found(self, positions: Reals) -> Feet:
+        """The closest points after a search among flat facets that oppose the points' own."""
+        places = at_points(self.face, positions).reshape(-1, 3)
+        rule, corners = triangle_rule(), positions[self.face.triangles]
+        along = np.einsum("qad,kai->dkqi", rule.gradients, corners)
+        normals = np.cross(along[0], along[1]).reshape(-1, 3)
+        normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+        candidates = self._candidates(positions, places, normals)
+        feet: Feet = find_feet(
+            places, candidates, positions, self.other.triangles, self.other.neighbours,
+            self.other.reach,
+        )  # fmt: skip
+        return feet
+
+    def _candidates(self, positions: Reals, places: Reals, normals: Reals) -> Numbers:
+        """Triangles (p, c) of the facets nearest to places with these normals; -1 for none."""
+        triangles = self.other.triangles
+        facets = np.stack([positions[triangles[:, part]] for part in PARTS], axis=1)
+        centres = facets.mean(axis=2).reshape(-1, 3)
+        edges = facets[:, :, 1:] - facets[:, :, :1]
+        across = np.cross(edges[:, :, 0], edges[:, :, 1]).reshape(-1, 3)
+        across /= np.linalg.norm(across, axis=1, keepdims=True)
+        size = float(np.linalg.norm(facets - facets.mean(axis=2, keepdims=True), axis=3).max())
+        count = min(CANDIDATES, len(centres))
+        _, found = cKDTree(centres).query(
+            places, k=np.arange(1, count + 1), distance_upper_bound=self.other.reach + size
+        )
+        near = found < len(centres)
+        found = np.where(near, found, 0)
+        opposing = np.einsum("pi,pci->pc", normals, across[found]) <= OPPOSING
+        return np.where(near & opposing, found // len(PARTS), -1)
+
+    def _numbers(self, feet: Feet, points: Numbers) -> Numbers:
+        """Numbers of the pairs of triangles that points belong to."""
+        own = points // self.face.areas.shape[1]
+        return np.asarray(own * len(self.other.triangles) + feet.triangles[points])
+
+    def _nodes(self, feet: Feet) -> Integers:
+        """Nodes (p, 6) of the triangles beneath the points; any where there is none."""
+        return self.other.triangles[feet.triangles]
+
+    def _shapes(self, feet: Feet) -> Reals:
+        """Shape functions (p, 6) of the closest points; zero where there is none."""
+        r, s = feet.parameters.T
+        shapes = quadratic_shapes(np.stack([1 - r - s, r, s], axis=1), ((0, 1), (1, 2), (2, 0)))
+        return np.where(feet.triangles[:, None] >= 0, shapes, 0.0)
+
+
+def edge_neighbours(triangles: Integers) -> Numbers:
+    """Triangles (k, 3) across the edges of six-node triangles (k, 6), which share a mid-node."""
+    middles = triangles[:, 3:].ravel()
+    order = np.argsort(middles, kind="stable")
+    sorted_middles = middles[order]
+    same = np.flatnonzero(sorted_middles[1:] == sorted_middles[:-1])
+    neighbours = np.full(len(middles), -1)
+    one, other = order[same], order[same + 1]
+    neighbours[one], neighbours[other] = other // 3, one // 3
+    return neighbours.reshape(-1, 3)
+
+
+def _with_neighbours(triangles: Numbers, neighbours: Numbers) -> Numbers:
+    """Triangles (j,) and those across their edges, (j, 4)."""
+    return np.column_stack([triangles, neighbours[triangles]])

@@ -1,0 +1,448 @@
+"""Contact of points with six-node triangles; see ``solver.assembly.pairs.surfaces``."""
+
+from __future__ import annotations
+
+from typing import NamedTuple, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from solver.arrays import Integers, Reals
+from solver.kernels.contact import Face, contact_law
+from solver.kernels.scatter import scatter
+from solver.numerics.compiled import compiled
+
+Numbers: TypeAlias = NDArray[np.int64]
+
+UNKNOWNS = 36
+"""Unknowns of two triangles: three for each of six nodes, first of the point's own triangle."""
+
+ITERATIONS = 20
+"""Of Newton's method for the closest point of a triangle or an edge; a few suffice."""
+
+SETTLED = 1e-14
+"""Largest last correction of a parameter of the triangle."""
+
+INSIDE = 1e-10
+"""By how much a parameter may lie outside the triangle."""
+
+LONGEST = 0.5
+"""Correction of the parameters in one iteration."""
+
+BEHIND = 0.5
+"""Cosine, at least, between a triangle's normal and the way from its edge to a point behind it."""
+
+INTERIOR, EDGE, CORNER = 0, 1, 2
+"""Where the closest point of a triangle is."""
+
+
+class Feet(NamedTuple):
+    """The closest points of a surface to points (p,).
+
+    ``gaps`` (p,): signed distances, mm, infinite where nothing is near; ``triangles`` (p,): which
+    of the surface, -1 for none; ``parameters`` (p, 2) in it; ``kinds`` (p,): ``INTERIOR``, ``EDGE``
+    or ``CORNER``; ``edges`` (p,): number of the edge; ``normals`` (p, 3): direction in which the
+    gap grows.
+    """
+
+    gaps: Reals
+    triangles: Numbers
+    parameters: Reals
+    kinds: Numbers
+    edges: Numbers
+    normals: Reals
+
+
+@compiled()
+def shapes_at(r: float, s: float, shapes: Reals, slopes: Reals) -> None:
+    """Quadratic shape functions (6,) of a triangle and their derivatives (6, 2) by r and s."""
+    q = 1.0 - r - s
+    shapes[0], shapes[1], shapes[2] = q * (2 * q - 1), r * (2 * r - 1), s * (2 * s - 1)
+    shapes[3], shapes[4], shapes[5] = 4 * q * r, 4 * r * s, 4 * s * q
+    slopes[0, 0] = slopes[0, 1] = 1 - 4 * q
+    slopes[1, 0], slopes[1, 1] = 4 * r - 1, 0.0
+    slopes[2, 0], slopes[2, 1] = 0.0, 4 * s - 1
+    slopes[3, 0], slopes[3, 1] = 4 * (q - r), -4 * r
+    slopes[4, 0], slopes[4, 1] = 4 * s, 4 * r
+    slopes[5, 0], slopes[5, 1] = -4 * s, 4 * (q - s)
+
+
+@compiled()
+def position(x: Reals, shapes: Reals, slopes: Reals, place: Reals, along: Reals) -> None:
+    """Point (3,) and tangents (2, 3) of a triangle with nodes x (6, 3)."""
+    for i in range(3):
+        place[i] = along[0, i] = along[1, i] = 0.0
+        for a in range(6):
+            place[i] += shapes[a] * x[a, i]
+            along[0, i] += slopes[a, 0] * x[a, i]
+            along[1, i] += slopes[a, 1] * x[a, i]
+
+
+@compiled()
+def second_derivatives(x: Reals, curved: Reals) -> None:
+    """Second derivatives (3, 3) of a triangle's points: by rr, rs and ss, constant in it."""
+    for i in range(3):
+        curved[0, i] = 4 * (x[0, i] + x[1, i] - 2 * x[3, i])
+        curved[1, i] = 4 * (x[0, i] - x[3, i] + x[4, i] - x[5, i])
+        curved[2, i] = 4 * (x[0, i] + x[2, i] - 2 * x[5, i])
+
+
+@compiled()
+def dot(a: Reals, b: Reals) -> float:
+    """Scalar product of vectors (3,)."""
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+@compiled()
+def unit_normal(along: Reals, normal: Reals) -> None:
+    """Unit normal (3,) of tangents (2, 3)."""
+    a, b = along[0], along[1]
+    normal[0] = a[1] * b[2] - a[2] * b[1]
+    normal[1] = a[2] * b[0] - a[0] * b[2]
+    normal[2] = a[0] * b[1] - a[1] * b[0]
+    length = np.sqrt(dot(normal, normal))
+    for i in range(3):
+        normal[i] /= length
+
+
+@compiled()
+def interior_foot(x: Reals, point: Reals, curved: Reals, found: Reals) -> bool:
+    """Parameters (2,) of the closest point of a triangle, by Newton; False if it has none inside.
+
+    Where the distance is not convex, without the curvature.
+    """
+    shapes, slopes, place, along = np.empty(6), np.empty((6, 2)), np.empty(3), np.empty((2, 3))
+    r = s = 1.0 / 3.0
+    for _ in range(ITERATIONS):
+        shapes_at(r, s, shapes, slopes)
+        position(x, shapes, slopes, place, along)
+        for i in range(3):
+            place[i] -= point[i]
+        first, second = dot(along[0], place), dot(along[1], place)
+        rr, rs, ss = dot(along[0], along[0]), dot(along[0], along[1]), dot(along[1], along[1])
+        bent = rr + dot(curved[0], place), rs + dot(curved[1], place), ss + dot(curved[2], place)
+        if bent[0] > 0 and bent[0] * bent[2] - bent[1] * bent[1] > 0.1 * (rr * ss - rs * rs):
+            rr, rs, ss = bent
+        determinant = rr * ss - rs * rs
+        dr = -(ss * first - rs * second) / determinant
+        ds = -(rr * second - rs * first) / determinant
+        size = max(abs(dr), abs(ds))
+        if not size < np.inf:
+            return False
+        share = min(1.0, LONGEST / size) if size > 0 else 1.0
+        r = min(max(r + share * dr, -1.0), 2.0)
+        s = min(max(s + share * ds, -1.0), 2.0)
+        if size <= SETTLED:
+            break
+    found[0], found[1] = r, s
+    return bool(size <= 1e-9 and r >= -INSIDE and s >= -INSIDE and r + s <= 1 + INSIDE)
+
+
+@compiled()
+def edge_foot(x: Reals, edge: int, point: Reals) -> float:
+    """Parameter from 0 to 1 of the closest point of a triangle's edge, by Newton."""
+    first, last, middle = x[edge], x[(edge + 1) % 3], x[3 + edge]
+    slope, curve = 4 * middle - 3 * first - last, 4 * (first + last - 2 * middle)
+    t = 0.5
+    for _ in range(ITERATIONS):
+        away = first + t * (slope + 0.5 * t * curve) - point
+        tangent = slope + t * curve
+        convexity, gauss = dot(tangent, tangent) + dot(curve, away), dot(tangent, tangent)
+        step = -dot(tangent, away) / (convexity if convexity > 0.1 * gauss else gauss)
+        moved = min(max(t + step, 0.0), 1.0)
+        change, t = abs(moved - t), moved
+        if change <= SETTLED:
+            break
+    return t
+
+
+@compiled()
+def edge_parameters(edge: int, t: float) -> tuple[float, float]:
+    """r and s at a place from 0 to 1 along an edge."""
+    if edge == 0:
+        return t, 0.0
+    if edge == 1:
+        return 1.0 - t, t
+    return 0.0, 1.0 - t
+
+
+@compiled()
+def squared_distance(x: Reals, r: float, s: float, point: Reals) -> float:
+    """Of a point from the place r, s of a triangle, mm^2."""
+    shapes, slopes, place, along = np.empty(6), np.empty((6, 2)), np.empty(3), np.empty((2, 3))
+    shapes_at(r, s, shapes, slopes)
+    position(x, shapes, slopes, place, along)
+    place -= point
+    return dot(place, place)
+
+
+@compiled()
+def foot(x: Reals, point: Reals, found: Reals) -> tuple[float, int, int]:
+    """Squared distance, kind and edge of the closest point of a triangle; ``found``: r and s."""
+    curved = np.empty((3, 3))
+    second_derivatives(x, curved)
+    if interior_foot(x, point, curved, found):
+        return squared_distance(x, found[0], found[1], point), INTERIOR, 0
+    least, kind, at = np.inf, EDGE, 0
+    for edge in range(3):
+        t = edge_foot(x, edge, point)
+        r, s = edge_parameters(edge, t)
+        distance = squared_distance(x, r, s, point)
+        if distance < least:
+            least, at = distance, edge
+            kind = CORNER if t == 0.0 or t == 1.0 else EDGE
+            found[0], found[1] = r, s
+    return least, kind, at
+
+
+@compiled()
+def signed_gap(x: Reals, point: Reals, r: float, s: float, kind: int, normal: Reals) -> float:
+    """Signed distance of a point from its foot and the direction (3,) in which it grows.
+
+    From an edge or corner it counts only if the point is straight behind, about.
+    """
+    shapes, slopes, place, along = np.empty(6), np.empty((6, 2)), np.empty(3), np.empty((2, 3))
+    shapes_at(r, s, shapes, slopes)
+    position(x, shapes, slopes, place, along)
+    unit_normal(along, normal)
+    away = point - place
+    gap = dot(away, normal)
+    if kind == INTERIOR:
+        return gap
+    distance = np.sqrt(dot(away, away))
+    if distance == 0.0:
+        return 0.0
+    if abs(gap) < BEHIND * distance:
+        return np.inf
+    signed = distance if gap > 0 else -distance
+    for i in range(3):
+        normal[i] = away[i] / signed
+    return signed
+
+
+@compiled()
+def find_feet(
+    points: Reals,
+    candidates: Numbers,
+    nodes: Reals,
+    triangles: Integers,
+    neighbours: Numbers,
+    reach: float,
+) -> Feet:
+    """Closest points of a surface to points (p, 3).
+
+    ``candidates`` (p, c): triangles where the search begins, -1 for none; ``nodes`` (n, 3) of the
+    deformed body; ``triangles`` (k, 6); ``neighbours`` (k, 3) across their edges, -1 for none. From
+    an edge the search goes on beyond it as long as that is nearer. Points deeper than ``reach`` do
+    not count.
+    """
+    count = len(points)
+    gaps, normals = np.full(count, np.inf), np.zeros((count, 3))
+    chosen, kinds, edges = np.full(count, -1), np.zeros(count, np.int64), np.zeros(count, np.int64)
+    parameters, found = np.zeros((count, 2)), np.empty(2)
+    for p in range(count):
+        least = np.inf
+        for c in range(candidates.shape[1]):
+            triangle = candidates[p, c]
+            steps = 0
+            while triangle >= 0 and steps < ITERATIONS:
+                steps += 1
+                distance, kind, edge = foot(nodes[triangles[triangle]], points[p], found)
+                if distance >= least:
+                    break
+                least = distance
+                chosen[p], kinds[p], edges[p] = triangle, kind, edge
+                parameters[p, 0], parameters[p, 1] = found[0], found[1]
+                triangle = neighbours[triangle, edge] if kind != INTERIOR else -1
+        if chosen[p] >= 0:
+            x = nodes[triangles[chosen[p]]]
+            r, s = parameters[p]
+            gaps[p] = signed_gap(x, points[p], r, s, kinds[p], normals[p])
+        if not gaps[p] >= -reach or gaps[p] == np.inf:
+            gaps[p], chosen[p] = np.inf, -1
+            normals[p] = 0.0
+    return Feet(gaps, chosen, parameters, kinds, edges, normals)
+
+
+@compiled()
+def inverse(matrix: Reals, result: Reals) -> None:
+    """Of a symmetric matrix (2, 2)."""
+    determinant = matrix[0, 0] * matrix[1, 1] - matrix[0, 1] * matrix[1, 0]
+    result[0, 0], result[1, 1] = matrix[1, 1] / determinant, matrix[0, 0] / determinant
+    result[0, 1] = result[1, 0] = -matrix[0, 1] / determinant
+
+
+@compiled()
+def free_directions(
+    x: Reals,
+    slopes: Reals,
+    along: Reals,
+    kind: int,
+    edge: int,
+    normal: Reals,
+    tangents: Reals,
+    changes: Reals,
+    bends: Reals,
+) -> None:
+    """What a foot does as it slides: in both parameters, along its edge, or not at all.
+
+    Fills ``tangents`` (2, 3), ``changes`` (2, 6) of the shape functions, and ``bends`` (2, 2):
+    second derivatives of the place times the normal. Zero in directions that are not free.
+    """
+    curved = np.empty((3, 3))
+    second_derivatives(x, curved)
+    rr, rs, ss = dot(normal, curved[0]), dot(normal, curved[1]), dot(normal, curved[2])
+    tangents[:, :], changes[:, :], bends[:, :] = 0.0, 0.0, 0.0
+    if kind == INTERIOR:
+        tangents[:, :] = along
+        changes[:, :] = slopes.T
+        bends[0, 0], bends[0, 1], bends[1, 0], bends[1, 1] = rr, rs, rs, ss
+    elif kind == EDGE:
+        (r0, s0), (r1, s1) = edge_parameters(edge, 0.0), edge_parameters(edge, 1.0)
+        dr, ds = r1 - r0, s1 - s0
+        tangents[0] = dr * along[0] + ds * along[1]
+        changes[0] = dr * slopes[:, 0] + ds * slopes[:, 1]
+        bends[0, 0] = dr * dr * rr + 2 * dr * ds * rs + ds * ds * ss
+
+
+@compiled()
+def gap_derivatives(
+    shapes: Reals,
+    x: Reals,
+    r: float,
+    s: float,
+    kind: int,
+    edge: int,
+    gap: float,
+    normal: Reals,
+    first: Reals,
+    second: Reals,
+) -> None:
+    """First (36,) and second (36, 36) derivatives of a gap by the nodes of both triangles.
+
+    ``shapes`` (6,) of the point in its own triangle, x (6, 3) nodes of the other one.
+    """
+    other, slopes, place, along = np.empty(6), np.empty((6, 2)), np.empty(3), np.empty((2, 3))
+    shapes_at(r, s, other, slopes)
+    position(x, other, slopes, place, along)
+    tangents, changes, bends = np.empty((2, 3)), np.empty((2, 6)), np.empty((2, 2))
+    free_directions(x, slopes, along, kind, edge, normal, tangents, changes, bends)
+    metric, curved = np.zeros((2, 2)), np.zeros((2, 2))
+    for c in range(2):
+        if c >= 2 - kind:
+            metric[c, c] = curved[c, c] = 1.0
+            continue
+        for d in range(2 - kind):
+            metric[c, d] = dot(tangents[c], tangents[d])
+            curved[c, d] = metric[c, d] - gap * bends[c, d]
+    flat, stiff = np.empty((2, 2)), np.empty((2, 2))
+    inverse(metric, flat)
+    inverse(curved, stiff)
+    bending = np.zeros((2, 2))
+    for c in range(2):
+        for d in range(2):
+            for e in range(2):
+                for f in range(2):
+                    bending[c, d] += flat[c, e] * bends[e, f] * stiff[f, d]
+    share, slid, turned = np.empty(12), np.zeros((2, UNKNOWNS)), np.zeros((2, UNKNOWNS))
+    share[:6], share[6:] = shapes, -other
+    for a in range(12):
+        for i in range(3):
+            first[3 * a + i] = share[a] * normal[i]
+            for c in range(2):
+                slid[c, 3 * a + i] = share[a] * tangents[c, i]
+                if a >= 6:
+                    turned[c, 3 * a + i] = changes[c, a - 6] * normal[i]
+    for i in range(UNKNOWNS):
+        for j in range(UNKNOWNS):
+            value = 0.0
+            for c in range(2 - kind):
+                for d in range(2 - kind):
+                    value -= slid[c, i] * bending[c, d] * slid[d, j]
+                    value -= slid[c, i] * stiff[c, d] * turned[d, j]
+                    value -= turned[c, i] * stiff[c, d] * (slid[d, j] + gap * turned[d, j])
+            second[i, j] = value
+    if kind != INTERIOR:
+        add_unheld(share, normal, tangents[0], flat[0, 0], gap, second)
+
+
+@compiled()
+def add_unheld(
+    share: Reals, normal: Reals, tangent: Reals, flat: float, gap: float, second: Reals
+) -> None:
+    """Add what the way to an edge or corner turns across directions in which its foot slides."""
+    for i in range(3):
+        for j in range(3):
+            rest = -normal[i] * normal[j] - flat * tangent[i] * tangent[j]
+            if i == j:
+                rest += 1.0
+            for a in range(12):
+                for b in range(12):
+                    second[3 * a + i, 3 * b + j] += share[a] * share[b] * rest / gap
+
+
+@compiled()
+def assemble_surface_contact(
+    face: Face,
+    feet: Feet,
+    nodes: Reals,
+    triangles: Integers,
+    points: Numbers,
+    pairs: Numbers,
+    dofs: Integers,
+    entries: Integers,
+    tangent: bool,
+    residual: Reals,
+    values: Reals,
+) -> None:
+    """Add forces to ``residual`` (N) and the tangent to the CSR ``values``.
+
+    ``nodes`` (n, 3) deformed, ``triangles`` (k, 6) of the other surface; ``points`` (m,): numbers
+    of the quadrature points in contact, ``pairs`` (m,): which of the pairs of triangles each
+    belongs to, whose ``dofs`` (j, 36) have the places ``entries`` (j, 666).
+    """
+    first, second = np.empty(UNKNOWNS), np.empty((UNKNOWNS, UNKNOWNS))
+    count = face.shapes.shape[0]
+    for m in range(len(points)):
+        p = points[m]
+        gap, area = feet.gaps[p], face.areas[p // count, p % count]
+        _, pressure, slope = contact_law(gap, face.stiffness, face.smoothing)
+        if pressure == 0.0:
+            continue
+        gap_derivatives(
+            face.shapes[p % count], nodes[triangles[feet.triangles[p]]], feet.parameters[p, 0],
+            feet.parameters[p, 1], feet.kinds[p], feet.edges[p], gap, feet.normals[p],
+            first, second,
+        )  # fmt: skip
+        for i in range(UNKNOWNS):
+            for j in range(i, UNKNOWNS):
+                second[i, j] = area * (slope * first[i] * first[j] - pressure * second[i, j])
+        first *= -area * pressure
+        scatter(first, second, dofs[pairs[m]], entries[pairs[m]], 1.0, tangent, residual, values)
+
+
+@compiled()
+def bent_gaps(
+    face: Face, feet: Feet, nodes: Reals, triangles: Integers, weights: Reals, along: Reals
+) -> Reals:
+    """Second derivatives of the gaps times ``weights`` (k, q) times a direction (n, 3): (n, 3)."""
+    first, second = np.empty(UNKNOWNS), np.empty((UNKNOWNS, UNKNOWNS))
+    result, count = np.zeros(nodes.shape), face.shapes.shape[0]
+    both = np.empty(12, np.int64)
+    for p in range(len(feet.gaps)):
+        weight = weights[p // count, p % count]
+        if feet.triangles[p] < 0 or weight == 0.0:
+            continue
+        other = triangles[feet.triangles[p]]
+        gap_derivatives(
+            face.shapes[p % count], nodes[other], feet.parameters[p, 0], feet.parameters[p, 1],
+            feet.kinds[p], feet.edges[p], feet.gaps[p], feet.normals[p], first, second,
+        )  # fmt: skip
+        both[:6], both[6:] = face.triangles[p // count], other
+        for a in range(12):
+            for i in range(3):
+                for b in range(12):
+                    for j in range(3):
+                        change = second[3 * a + i, 3 * b + j] * along[both[b], j]
+                        result[both[a], i] += weight * change
+    return result
