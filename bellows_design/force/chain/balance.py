@@ -82,26 +82,20 @@ class Balance:
         moved = points.jacobian(frames, by_motions)
         dead = loaded.dead_forces(load)
         dead[-1] += at.held[:2]
-        count = len(dead)
-        force = np.einsum("mcj,mc->j", moved, np.concatenate([dead, contact.force]))
         moment = load.forces * loaded.surroundings.tip_moment + at.held[2]
-        force += moment * by_motions[-1, 2]
-        rows = moved[count:].reshape(-1, size)
-        pushed = np.matmul(contact.stiffness, moved[count:]).reshape(-1, size)
-        current = np.concatenate([dead, contact.current])
-        stiffness = rows.T @ pushed
-        stiffness -= points.curvature(chain, configuration, by_motions, current)
-        edge = loaded.carriers[np.array([-1])].positions(frames)[0]
+        touched, turned = moved[len(dead) :], by_motions[-1, 2]
+        known = np.concatenate([dead, contact.current])
         return cls(
-            configuration,
-            response,
-            contact,
-            moved[count:],
-            positions,
-            np.append(edge, frames[-1, 2]),
-            np.concatenate([moved[count - 1], by_motions[-1, 2:3]]),
-            force,
-            stiffness,
+            configuration=configuration,
+            response=response,
+            contact=contact,
+            touching=touched,
+            positions=positions,
+            tip=np.append(loaded.edge.positions(frames)[0], frames[-1, 2]),
+            tip_jacobian=np.concatenate([moved[len(dead) - 1], turned[None]]),
+            force=_carried(moved, np.concatenate([dead, contact.force])) + moment * turned,
+            stiffness=_pressed(touched, contact.stiffness)
+            - points.curvature(chain, configuration, by_motions, known),
         )
 
     def flexed(self, columns: Reals) -> Reals:
@@ -114,3 +108,14 @@ class Balance:
     def operator(self) -> Reals:
         """I + C P'' with the compliance C of the pieces, shape (3 n, 3 n)."""
         return np.eye(len(self.force)) + self.flexed(self.stiffness)
+
+
+def _carried(moved: Reals, forces: Reals) -> Reals:
+    """Work of ``forces`` (m, 2) by motions, given the points' derivatives (m, 2, 3 n)."""
+    return np.einsum("mcj,mc->j", moved, forces)
+
+
+def _pressed(moved: Reals, stiffness: Reals) -> Reals:
+    """Stiffness of points (m, 2, 2) by motions (3 n, 3 n)."""
+    size = moved.shape[2]
+    return moved.reshape(-1, size).T @ np.matmul(stiffness, moved).reshape(-1, size)

@@ -21,6 +21,8 @@ LET_GO = 0.5
 """Part of the largest force at which the pull ends."""
 CLOSE = 1e-3
 """Of a force that is looked for, as part of the largest one."""
+FINER = 8
+"""Steps that take the place of two where the force is largest."""
 MOST_TRIALS = 40
 
 
@@ -160,7 +162,25 @@ def pulled(loaded: LoadedChain, closing: Path, pull: Pull) -> Grip:
         jumps.extend(path.jumps)
         ending = path.ending
     released = _let_go(states, pull)
+    states = _with_peak(loaded, states, pull)
     return Grip(loaded, closing, pull, tuple(states), ending, released, tuple(jumps))
+
+
+def _with_peak(loaded: LoadedChain, states: list[ChainState], pull: Pull) -> list[ChainState]:
+    """The states, with finer steps about the one where the force is largest."""
+    top = max(range(len(states)), key=lambda number: pull.force(states[number]))
+    first, last = max(top - 1, 0), min(top + 1, len(states) - 1)
+    if first == last:
+        return states
+    ways = np.linspace(pull.way(states[first]), pull.way(states[last]), FINER + 1)[1:]
+    fine = [states[first]]
+    for way in ways:
+        path = _moved(loaded, fine[-1], pull, float(way))
+        if path.ending or path.jumps:
+            break
+        fine.append(path.last)
+    reached = pull.way(fine[-1])
+    return states[:first] + fine + [each for each in states[top:] if pull.way(each) > reached]
 
 
 def _moved(loaded: LoadedChain, start: ChainState, pull: Pull, way: float) -> Path:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -77,6 +78,11 @@ class LoadedChain:
             vars(self.carriers).values(), vars(self.contacts[touching]).values(), strict=True
         )
         return Points(*(np.concatenate(each) for each in parts))
+
+    @cached_property
+    def edge(self) -> Points:
+        """The tip's lower edge."""
+        return self.carriers[np.array([-1])]
 
     @property
     def at_rest(self) -> Configuration:

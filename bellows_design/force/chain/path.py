@@ -47,8 +47,8 @@ class Ending:
     Attributes:
         cause: ``instability``: equilibria go on, but are unstable; ``limit point``: there is none
             near, and the last one is about to lose its stability; ``jump``: the next one found is
-            stable, but far away; ``law``: that of a piece does not reach so far; ``no
-            equilibrium``: Newton's method found none.
+            stable, but far away; ``law``: that of a piece does not reach so far, or has no
+            positive compliance there; ``no equilibrium``: Newton's method found none.
         sentence: the same for users.
         load: where no more equilibrium was found.
         beyond: the stable equilibrium at ``load`` in which the finger comes to rest, if found.
@@ -129,7 +129,7 @@ def follow_loads(
 def rest(loaded: LoadedChain) -> ChainState:
     """The undeformed finger without loads, its tip held where it is."""
     frames = loaded.at_rest.frames
-    edge = np.append(loaded.carriers[np.array([-1])].positions(frames)[0], frames[-1, 2])
+    edge = np.append(loaded.edge.positions(frames)[0], frames[-1, 2])
     hold = loaded.surroundings.hold
     shift = [
         0.0 if value is None else float(at - value)
@@ -182,7 +182,7 @@ def _attempt(loaded: LoadedChain, last: ChainState, load: LoadPoint) -> ChainSta
         return Ending("law", str(error), load)
     state = state_of(loaded, load, found)
     if not state.stable:
-        return _ending("instability", load)
+        return _ending("instability" if np.isfinite(state.margin) else "law", load)
     if _corrected(loaded, found) > LARGEST_CORRECTION:
         return _ending("jump", load)
     return state
@@ -195,6 +195,7 @@ def _corrected(loaded: LoadedChain, found: Equilibrium) -> float:
 
 
 SENTENCES: dict[str, str] = {
+    "law": "the law of a piece has no positive compliance under its section loads",
     "instability": "the finger becomes unstable: it snaps away",
     "limit point": "the finger finds no equilibrium near the last one: it snaps away",
     "jump": "the finger jumps to another equilibrium",

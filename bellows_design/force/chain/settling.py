@@ -7,6 +7,8 @@ and comes to rest where all eigenvalues of I + C P'' are positive.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from bellows_design.errors import BellowsError
@@ -15,7 +17,7 @@ from bellows_design.force.chain.contact.forces import ContactHistory
 from bellows_design.force.chain.equilibrium import Drag, Equilibrium, solve
 from bellows_design.force.chain.loaded_chain import LoadedChain
 from bellows_design.force.chain.readings import history_of, state_of, unknowns_of
-from bellows_design.force.chain.stability import least_stable_motion, stability_margin
+from bellows_design.force.chain.stability import least_stable_motion
 from bellows_design.force.chain.state import ChainState
 from bellows_design.force.chain.surroundings import LoadPoint
 
@@ -28,12 +30,33 @@ SLOW, FAST = 0.02, 0.2
 it is taken again, shorter."""
 AT_REST = 1e-9
 """Rotation by time, rad."""
-MOST_STEPS = 300
+MOST_STEPS, MOST_RESTS = 300, 4
 
 
 def settled(loaded: LoadedChain, last: ChainState, load: LoadPoint) -> ChainState | None:
     """The stable equilibrium under ``load`` to which the finger moves from ``last``, if any."""
-    at, history, time = _off_balance(loaded, last, load), last.history, FIRST_TIME
+    at, history = unknowns_of(last), last.history
+    for _ in range(MOST_RESTS):
+        try:
+            found = solve(loaded, load, at, history)
+        except BellowsError:
+            moved = _at_rest(loaded, load, at, history)
+        else:
+            state = state_of(loaded, load, found)
+            if state.stable:
+                return state
+            moved = _at_rest(loaded, load, _aside(found), history)
+        if moved is None:
+            return None
+        at, history = moved
+    return None
+
+
+def _at_rest(
+    loaded: LoadedChain, load: LoadPoint, at: Unknowns, history: ContactHistory
+) -> tuple[Unknowns, ContactHistory] | None:
+    """Where the motion ends that begins at ``at``; it may be unstable. None if it does not."""
+    time = FIRST_TIME
     for _ in range(MOST_STEPS):
         found = _moment(loaded, load, at, history, time)
         turn = np.inf if found is None else _turn(at, found.at)
@@ -44,26 +67,15 @@ def settled(loaded: LoadedChain, last: ChainState, load: LoadPoint) -> ChainStat
             continue
         at, history = found.at, history_of(loaded, found)
         if turn < AT_REST * time:
-            break
+            return at, history
         time = min(2 * time, LONGEST_TIME) if turn < SLOW else time
-    try:
-        state = state_of(loaded, load, solve(loaded, load, at, history))
-    except BellowsError:
-        return None
-    return state if state.stable else None
+    return None
 
 
-def _off_balance(loaded: LoadedChain, last: ChainState, load: LoadPoint) -> Unknowns:
-    """``last``, or beside the unstable equilibrium near it."""
-    start = unknowns_of(last)
-    try:
-        found = solve(loaded, load, start, last.history)
-    except BellowsError:
-        return start
-    if stability_margin(found.balance, found.holding) > 0:
-        return start
+def _aside(found: Equilibrium) -> Unknowns:
+    """Beside an unstable equilibrium, where it is least stable."""
     aside = NUDGE * least_stable_motion(found.balance, found.holding)
-    return Unknowns(found.at.motions + aside, found.at.loads, found.at.held, found.at.pressing)
+    return replace(found.at, motions=found.at.motions + aside)
 
 
 def _moment(

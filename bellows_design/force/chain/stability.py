@@ -53,6 +53,9 @@ def tip_stiffness(balance: Balance, holding: NDArray[np.bool_]) -> float:
     across = balance.flexed(rows.T)
     matrix = np.block([[balance.operator, -across], [rows, np.zeros((count, count))]])
     push = balance.flexed(balance.tip_jacobian[TIP_Z][:, None])[:, 0]
-    moved = np.linalg.solve(matrix, np.concatenate([push, np.zeros(count)]))[:size]
+    try:
+        moved = np.linalg.solve(matrix, np.concatenate([push, np.zeros(count)]))[:size]
+    except np.linalg.LinAlgError:  # other holds already keep all that could move
+        return np.inf
     flexibility = float(balance.tip_jacobian[TIP_Z] @ moved)
     return 1 / flexibility if flexibility else np.inf

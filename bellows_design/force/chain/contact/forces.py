@@ -139,6 +139,23 @@ NO_CONTACT = ContactForces(
 )
 
 
+@dataclass(frozen=True)
+class _Touching:
+    """Points that touch an object.
+
+    Their distance, stiffness, known normal force, that with the gap weighed up, known friction
+    force, way since the step before, and the spring's stretch then.
+    """
+
+    near: Distance
+    stiffness: Reals
+    known: Reals
+    weighed: Reals
+    pulled: Reals
+    moved: Reals
+    stretch: Reals
+
+
 def _against(
     obstacles: Obstacles,
     number: int,
@@ -148,30 +165,30 @@ def _against(
     pressing: Pressing,
 ) -> ContactForces:
     """Forces of one object."""
-    obstacle = obstacles.objects[number]
-    gap = obstacle.gap(positions)
+    obstacle, known = obstacles.objects[number], pressing.normal[number]
     stiffness = obstacles.model.stiffness * widths
-    known = pressing.normal[number]
-    weighed = known - SOFTNESS * (gap + known / stiffness)
+    weighed = known - SOFTNESS * (obstacle.gap(positions) + known / stiffness)
     points = np.flatnonzero(weighed > 0)
-    near = obstacle.distance(positions[points])
-    stiffness, known = stiffness[points], known[points]
-    outwards, along = near.gradient, turned(near.gradient)
-    normal = -stiffness * near.value
-    by_position = -stiffness[:, None] * outwards
-    drag = _friction(
-        obstacles.friction,
-        near,
-        _Spring(
-            positions[points] - history.positions[points],
-            history.stretch[number, points],
-            pressing.friction[number, points],
-            stiffness,
-        ),
-        np.maximum(weighed[points], 0.0),
-        normal,
+    touching = _Touching(
+        near=obstacle.distance(positions[points]),
+        stiffness=stiffness[points],
+        known=known[points],
+        weighed=weighed[points],
+        pulled=pressing.friction[number, points],
+        moved=positions[points] - history.positions[points],
+        stretch=history.stretch[number, points],
     )
-    pulled = pressing.friction[number, points]
+    return _forces(points, number, touching, _friction(obstacles.friction, touching))
+
+
+def _forces(
+    points: NDArray[np.int64], number: int, touching: _Touching, drag: _Drag
+) -> ContactForces:
+    """Forces on ``points`` that touch the object of that number."""
+    near, known, pulled = touching.near, touching.known[:, None], touching.pulled[:, None]
+    outwards, along = near.gradient, turned(near.gradient)
+    normal = -touching.stiffness * near.value
+    by_position = -touching.stiffness[:, None] * outwards
     return ContactForces(
         points=points,
         objects=np.full(len(points), number),
@@ -180,52 +197,41 @@ def _against(
         normal_by_position=by_position,
         friction_by_position=drag.by_position,
         force=normal[:, None] * outwards - drag.force[:, None] * along,
-        current=known[:, None] * outwards - pulled[:, None] * along,
+        current=known * outwards - pulled * along,
         stiffness=_products(along, drag.by_position)
         - _products(outwards, by_position)
-        - known[:, None, None] * near.hessian
-        + pulled[:, None, None] * _turning(near),
+        - known[:, None] * near.hessian
+        + pulled[:, None] * _turning(near),
         sticks=drag.sticks,
-        energy=0.5 * (normal**2 + drag.force**2) / stiffness,
+        energy=0.5 * (normal**2 + drag.force**2) / touching.stiffness,
     )
 
 
 @dataclass(frozen=True)
-class _Spring:
-    """Friction's springs: way since the step before, stretch then, force now, stiffness."""
-
-    moved: Reals
-    stretch: Reals
-    force: Reals
-    stiffness: Reals
-
-
-@dataclass(frozen=True)
 class _Drag:
-    """Friction forces against motion along the surface."""
+    """Friction forces against motion along the surface, and their derivative by the position."""
 
     force: Reals
     by_position: Reals
     sticks: NDArray[np.bool_]
 
 
-def _friction(
-    coefficient: float, near: Distance, spring: _Spring, weighed: Reals, normal: Reals
-) -> _Drag:
-    """Friction at points whose normal force is ``normal``, or ``weighed`` where it decides."""
-    count = len(normal)
+def _friction(coefficient: float, touching: _Touching) -> _Drag:
+    """Friction on points that touch."""
+    near, stiffness = touching.near, touching.stiffness
     if not coefficient:
-        return _Drag(np.zeros(count), np.zeros((count, 2)), np.zeros(count, np.bool_))
+        none = np.zeros(len(stiffness))
+        return _Drag(none, np.zeros((len(none), 2)), np.zeros(len(none), np.bool_))
     along = turned(near.gradient)
-    stretch = spring.stretch + (spring.moved * along).sum(axis=1)
-    trial = spring.force + SOFTNESS * (stretch - spring.force / spring.stiffness)
-    sticks = np.abs(trial) <= coefficient * weighed
+    stretch = touching.stretch + (touching.moved * along).sum(axis=1)
+    trial = touching.pulled + SOFTNESS * (stretch - touching.pulled / stiffness)
+    sticks = np.abs(trial) <= coefficient * touching.weighed
     share = coefficient * np.sign(trial)
-    held = along + np.einsum("cij,ci->cj", _turning(near), spring.moved)
+    held = along + np.einsum("cij,ci->cj", _turning(near), touching.moved)
+    slid = -share[:, None] * near.gradient
     return _Drag(
-        np.where(sticks, spring.stiffness * stretch, share * normal),
-        spring.stiffness[:, None]
-        * np.where(sticks[:, None], held, -share[:, None] * near.gradient),
+        stiffness * np.where(sticks, stretch, -share * near.value),
+        stiffness[:, None] * np.where(sticks[:, None], held, slid),
         sticks,
     )
 

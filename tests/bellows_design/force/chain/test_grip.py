@@ -72,3 +72,14 @@ def test_friction_makes_a_soft_finger_hold_more() -> None:
 def test_the_length_of_the_rod_is_more_than_its_reach() -> None:
     """What is computed by hand holds while the disc is beside the rod."""
     assert np.hypot(CENTRE[0] + 15.0, CENTRE[1]) < LENGTH
+
+
+def test_the_largest_force_depends_little_on_the_steps_of_the_pull() -> None:
+    """It is looked for in eighths of them where it is largest: here a kink, as the rod slips."""
+    around = Surroundings(objects=(Disc(CENTRE, RADIUS),), friction=0.7)
+    rod = hinged_rod(MOMENT_BY_PRESSURE, COMPLIANCE)
+    forces = [
+        grip(rod, around, [0.05, 0.1], Pull(step=step, longest=6.0)).largest_force
+        for step in (0.5, 0.125)
+    ]
+    assert forces[0] == pytest.approx(forces[1], rel=1e-2)
