@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from bellows_design.force.finger_law import Uncertainty
 from bellows_design.force.law.half_bubble import CellLaw
@@ -55,9 +56,13 @@ class CellFacts:
             shear=SHEAR,
         )
 
-    def _touching(self, pressure: float, loads: Reals) -> Reals:
+    def within(self, pressure: float, loads: Reals) -> bool:
+        """Whether the table reaches that far."""
+        return self.law.within(pressure, loads)
+
+    def _touching(self, pressure: float, loads: Reals) -> NDArray[np.bool_]:
         """Which half bubbles touch their neighbour (n,)."""
-        found: Reals = gaps(self.law.table, pressure, loads[:, 0]) <= 0
+        found: NDArray[np.bool_] = gaps(self.law.table, pressure, loads[:, 0]) <= 0
         return found
 
     def _neighbours(self, pressure: float, loads: Reals) -> float:

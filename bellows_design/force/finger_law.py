@@ -48,6 +48,10 @@ class Facts(Protocol):
         """Rotations that the law does not know of."""
         ...
 
+    def within(self, pressure: float, loads: Reals) -> bool:
+        """Whether the law was computed for such moments; it is extrapolated beyond."""
+        ...
+
 
 @dataclass(frozen=True)
 class NoFacts:
@@ -64,6 +68,10 @@ class NoFacts:
     def unknown(self, pressure: float, loads: Reals) -> Uncertainty:
         """Nothing is unknown."""
         return Uncertainty()
+
+    def within(self, pressure: float, loads: Reals) -> bool:
+        """It holds everywhere."""
+        return True
 
 
 @dataclass(frozen=True)

@@ -40,6 +40,10 @@ class Known:
         """As given."""
         return self.rotations
 
+    def within(self, pressure: float, loads: Reals) -> bool:
+        """Up to 60 N mm."""
+        return bool((abs(loads[:, 0]) < 60).all())
+
 
 def linear_law(**facts: object) -> FingerLaw:
     """About the law of Prototype 1, linear; ``facts`` are those of ``Known``."""

@@ -8,6 +8,7 @@ from datetime import UTC, datetime
 from typing import TYPE_CHECKING
 
 from bellows_design.analysis.error_estimate import error_estimate
+from bellows_design.analysis.whole_actuator import ends_factor
 from bellows_design.budget import DEFAULT, Budget
 from bellows_design.design.design import Design
 from bellows_design.errors import BellowsError
@@ -122,7 +123,7 @@ def _made(computation: Computation, tolerance: float, progress: Progress) -> Cel
         tabulated=corrected,
         end=end,
         free_rotation=correction.softening * free[-1].point.rotation,
-        stress_factor=correction.stress_factor,
+        stress_factor=correction.stress_factor * ends_factor(computation),
         error=_error(computation, builder, correction, end),
         mesh=mesh,
         effort=Effort(cell.factorizations, time.monotonic() - began),

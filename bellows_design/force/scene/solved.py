@@ -56,10 +56,24 @@ class Solved:
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """A sentence for each jump: the finger has more than one equilibrium there."""
-        return tuple(
+        """A sentence for each jump, where there are several equilibria, and for extrapolation."""
+        jumps = tuple(
             f"{jump.sentence.rstrip('.')}, and was followed to where it comes to rest."
             for jump in self.path.jumps
+        )
+        halves = self.loaded.chain.lengths > 0
+        beyond = [
+            state.pressure
+            for state in self.path.steps
+            if not self.law.facts.within(state.pressure, state.loads[halves])
+        ]
+        if not beyond:
+            return jumps
+        first = min(beyond, key=abs)
+        return (
+            *jumps,
+            f"from {first:.3g} MPa on sections bear moments beyond those that the law was computed "
+            "for: it is extrapolated there.",
         )
 
     @property
