@@ -11,7 +11,7 @@ from bellows_design.analysis.error_estimate import error_estimate
 from bellows_design.analysis.whole_actuator import ends_factor
 from bellows_design.budget import DEFAULT, Budget
 from bellows_design.design.design import Design
-from bellows_design.errors import BellowsError
+from bellows_design.errors import UnreachedError
 from bellows_design.force.law.computation.building import Builder, aim_of
 from bellows_design.force.law.computation.continuation import Continuation, Solved
 from bellows_design.force.law.computation.meshes import Correction
@@ -95,7 +95,7 @@ def _evaluated(
     model = "auto" if usual else ModelName.UNIT_CELL.value
     found = evaluated(design, model, progress=progress, budget=budget, store=store)
     if not found.converged:
-        raise BellowsError(f"there is no law of the bubbles: {found.message}")
+        raise UnreachedError(f"there is no law of the bubbles: {found.message}")
     return found
 
 
@@ -171,5 +171,5 @@ def _free(cell: Continuation, pressure: float) -> list[Solved]:
     at_rest, _ = cell.from_zero((0.0,))
     loaded, reached = cell.from_zero(tuple(share * pressure for share in FIRST_ROWS[1:]))
     if len(loaded) + 1 < len(FIRST_ROWS):
-        raise BellowsError(f"there is no law of the bubbles: {reached}")
+        raise UnreachedError(f"there is no law of the bubbles: {reached}")
     return [*at_rest, *loaded]

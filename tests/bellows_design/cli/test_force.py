@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 from linear_finger import Uncertainty, linear_law
 
-from bellows_design.errors import DesignError
+from bellows_design.errors import DesignError, UnreachedError
 from bellows_design.force.scene.solved import Solved
 
 Bellows = Callable[..., tuple[int, str, str]]
@@ -133,3 +133,14 @@ def test_a_finger_without_equilibrium_has_status_3_and_its_last_state(
     assert status == 3 and not found["converged"] and found["message"] == "the law ends here."
     assert found["pressure_mpa"] == pytest.approx(0.04, abs=1e-4) and found["stable"]
     assert len(found["curve"]) == 3
+
+
+def test_a_cell_that_does_not_reach_its_pressure_has_status_3(
+    bellows: Bellows, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def unreached(*_: object) -> Solved:
+        raise UnreachedError("there is no law of the bubbles: it got no further.")
+
+    monkeypatch.setattr("bellows_design.force.curve.solved_with_its_law", unreached)
+    status, _, err = bellows("force", "prototype_1")
+    assert status == 3 and "there is no law of the bubbles" in err

@@ -12,6 +12,7 @@ from linear_finger import DESIGN, Uncertainty, linear_law
 
 from bellows_design.approval import decide
 from bellows_design.budget import DEFAULT
+from bellows_design.design import load_design, with_overrides
 from bellows_design.design.scenes.blocked import Blocked
 from bellows_design.errors import DesignError
 from bellows_design.force.curve import force_curve
@@ -19,7 +20,7 @@ from bellows_design.force.result import ForceCurve
 from bellows_design.progress import SILENCE
 from bellows_design.study.optimize import run
 from bellows_design.study.optimize.goal import Goal
-from bellows_design.study.optimize.verification import Verification
+from bellows_design.study.optimize.verification import Verification, verified
 
 CELL = FakeEvaluation(design=DESIGN, max_von_mises_mpa=2.0)
 
@@ -95,3 +96,12 @@ def test_the_best_design_that_is_strong_enough_takes_the_place_of_a_weak_one(
 def test_a_least_force_is_positive() -> None:
     with pytest.raises(DesignError, match="least force is -1 N but must be above 0 N"):
         Goal("angle", 4.0, least_force_n=-1.0)
+
+
+@pytest.mark.slow
+def test_a_verification_computes_the_force_that_is_asked_for() -> None:
+    design = with_overrides(load_design("prototype_1"), ["load.pressure=0.04"])
+    found = verified(design, Goal("angle", 4.0, least_force_n=0.1), half=False)
+    assert found.force is not None and found.strong
+    assert 0.1 < found.least_force_n < found.force.last.force_n
+    assert found.to_dict()["force"]["scene"] == "blocked"
