@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from bellows_design.store.key import Key
     from bellows_design.store.store import Store
 
-__all__ = ["CellLaw", "cell_law"]
+__all__ = ["CellLaw", "cell_law", "extended"]
 
 TOLERANCE = 0.005
 """Of the interpolated rotation, relative to the free rotation at the design's pressure."""
@@ -71,6 +71,58 @@ def cell_law(
     if computation.in_time and law.error.complete:
         _keep(store, key, law, progress)
     return law
+
+
+def extended(
+    law: CellLaw,
+    moments: tuple[float, float],
+    pressures: tuple[float, float] | None = None,
+    progress: Progress = SILENCE,
+    seconds: float = DEFAULT.seconds,
+) -> CellLaw:
+    """The law with a table that goes further, as far as there are equilibria.
+
+    It is not kept.
+
+    Args:
+        law: what there is.
+        moments: up to which rows go at least, N mm.
+        pressures: of the rows that do, MPa; all by default. A pressure beyond the table gets a row.
+        progress: listens to stages.
+        seconds: after which nothing more is refined.
+
+    Raises:
+        BellowsError: a pressure that the cell does not reach without a moment.
+    """
+    began, table = time.monotonic(), law.table
+    low, high = pressures or (float(table.pressures[0]), float(table.pressures[-1]))
+    cell = Continuation.of(law.design, law.mesh)
+    aim = aim_of(law.free_rotation / law.tabulated.softening, law.tolerance)
+    builder = Builder(cell, aim, note=progress.stage, deadline=began + seconds)
+    builder.known = {row.pressure: row for row in table.rows}
+    for pressure in sorted({low, high, *table.pressures.tolist()}):
+        if low <= pressure <= high:
+            builder.extend(_at(cell, pressure), moments)
+    builder.refine()
+    effort = Effort(
+        law.effort.factorizations + cell.factorizations,
+        law.effort.seconds + time.monotonic() - began,
+    )
+    error = replace(
+        law.error,
+        interpolation=max(law.error.interpolation, builder.worst),
+        complete=law.error.complete and builder.complete,
+    )
+    tabulated = law.tabulated.on(builder.table)
+    return replace(law, tabulated=tabulated, error=error, effort=effort, from_cache="")
+
+
+def _at(cell: Continuation, pressure: float) -> Solved:
+    """Without a moment. Raises ``BellowsError``."""
+    found, reached = cell.from_zero((pressure,))
+    if not found:
+        raise UnreachedError(f"there is no law of the bubbles: {reached}")
+    return found[0]
 
 
 def _keep(store: Store | None, key: Key, law: CellLaw, progress: Progress) -> None:
@@ -123,6 +175,7 @@ def _made(computation: Computation, tolerance: float, progress: Progress) -> Cel
         tabulated=corrected,
         end=end,
         free_rotation=correction.softening * free[-1].point.rotation,
+        tolerance=tolerance,
         stress_factor=correction.stress_factor * ends_factor(computation),
         error=_error(computation, builder, correction, end),
         mesh=mesh,
@@ -162,7 +215,7 @@ def _error(
         mesh=correction.error,
         ends=ends_error(last, free, with_stubs),
         stress_percent=error_estimate(computation).max_von_mises_percent,
-        complete=not builder.late,
+        complete=builder.complete,
     )
 
 

@@ -61,19 +61,23 @@ class Solved:
             f"{jump.sentence.rstrip('.')}, and was followed to where it comes to rest."
             for jump in self.path.jumps
         )
-        halves = self.loaded.chain.lengths > 0
-        beyond = [
-            state.pressure
-            for state in self.path.steps
-            if not self.law.facts.within(state.pressure, state.loads[halves])
-        ]
-        if not beyond:
+        if not self.beyond:
             return jumps
-        first = min(beyond, key=abs)
+        first = self.beyond[0].pressure
         return (
             *jumps,
             f"from {first:.3g} MPa on sections bear moments beyond those that the law was computed "
             "for: it is extrapolated there.",
+        )
+
+    @property
+    def beyond(self) -> tuple[ChainState, ...]:
+        """States of the path for whose moments the law was not computed."""
+        halves = self.loaded.chain.lengths > 0
+        return tuple(
+            state
+            for state in self.path.steps
+            if not self.law.facts.within(state.pressure, state.loads[halves])
         )
 
     @property

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
@@ -12,7 +12,8 @@ import numpy as np
 
 from bellows_design.errors import BellowsError
 from bellows_design.force.law.computation.continuation import Continuation, Solved
-from bellows_design.force.law.computation.walking import Aim, SolvedRow, refined, walked
+from bellows_design.force.law.computation.walking import Aim, SolvedRow, refined, retraced, walked
+from bellows_design.force.law.interpolation.rows import Row
 from bellows_design.force.law.interpolation.table import Table
 
 if TYPE_CHECKING:
@@ -41,27 +42,27 @@ class Builder:
         cell: what is solved.
         aim: how far rows go, and how fine they are.
         rows: so far, by pressure.
+        known: rows of the table without their states; those of the same pressure in ``rows`` count.
         checks: at pressures between rows.
         note: is told what is done.
         deadline: of the monotonic clock, s; nothing is refined after it.
+        complete: whether refinement came to its end.
     """
 
     cell: Continuation
     aim: Aim
     rows: dict[float, SolvedRow] = field(default_factory=dict)
+    known: dict[float, Row] = field(default_factory=dict)
     checks: list[Check] = field(default_factory=list)
     note: Callable[[str], None] = lambda _: None
     deadline: float = float("inf")
+    complete: bool = False
 
     @property
     def table(self) -> Table:
         """Of the rows so far, at least two."""
-        return Table(tuple(self.rows[pressure].row for pressure in sorted(self.rows)))
-
-    @property
-    def late(self) -> bool:
-        """Whether the time is over."""
-        return time.monotonic() > self.deadline
+        rows = self.known | {pressure: solved.row for pressure, solved in self.rows.items()}
+        return Table(tuple(rows[pressure] for pressure in sorted(rows)))
 
     def start(self, free: Sequence[Solved]) -> None:
         """Rows through points without a moment. Raises ``BellowsError`` for less than two."""
@@ -69,6 +70,15 @@ class Builder:
             raise BellowsError("the section's law needs equilibria at two pressures at least.")
         for solved in free:
             self.add(SolvedRow((solved,)))
+
+    def extend(self, free: Solved, moments: tuple[float, float]) -> None:
+        """A row that is known, or a new one, up to moments (N mm), from its point without one."""
+        pressure, start = free.point.pressure, SolvedRow((free,))
+        self.note(f"section's law at {pressure:.4g} MPa")
+        if pressure in self.known:
+            start = retraced(self.cell, self.known[pressure], free)
+        aim = replace(self.aim, moments=moments)
+        self.rows[pressure] = refined(self.cell, walked(self.cell, start, aim), aim)
 
     def add(self, begun: SolvedRow) -> None:
         """A row on from the points that are known of it."""
@@ -86,7 +96,7 @@ class Builder:
         pressures = sorted(self.rows)
         least = LEAST_SHARE * (pressures[-1] - pressures[0])
         open_intervals = list(pairwise(pressures))
-        while open_intervals and not self.late:
+        while open_intervals and time.monotonic() < self.deadline:
             low, high = open_intervals.pop(0)
             middle = (low + high) / 2
             found = self._checked(middle)
@@ -96,6 +106,7 @@ class Builder:
                 continue
             self.add(SolvedRow(tuple(sorted(found[0], key=lambda each: each.point.moment))))
             open_intervals += [(low, middle), (middle, high)]
+        self.complete = not open_intervals
 
     def _checked(self, pressure: float) -> tuple[list[Solved], list[Check]]:
         """Points between rows: where neighbours begin to touch, and where they press each other."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
@@ -26,13 +27,15 @@ class Aim:
     """How far a row goes, and how fine it is; all in rad.
 
     ``low`` and ``high``: rotations that it passes. ``step``: of the rotation from point to point on
-    the first walk. ``tolerance``: of the interpolated rotation.
+    the first walk. ``tolerance``: of the interpolated rotation. ``moments``: that it passes as
+    well, N mm.
     """
 
     low: float
     high: float
     step: float
     tolerance: float
+    moments: tuple[float, float] = (math.inf, -math.inf)
 
 
 @dataclass(frozen=True)
@@ -62,9 +65,7 @@ class SolvedRow:
 def walked(cell: Continuation, start: SolvedRow, aim: Aim) -> SolvedRow:
     """From a row's ends on, until the rotation passes those of the aim or no state is found."""
     down, below = _walk(cell, start.solved[0], aim, -1.0, lambda walk: _low_enough(walk, aim))
-    up, above = _walk(
-        cell, start.solved[-1], aim, 1.0, lambda walk: walk[-1].point.rotation >= aim.high
-    )
+    up, above = _walk(cell, start.solved[-1], aim, 1.0, lambda walk: _high_enough(walk, aim))
     ends = (start.ends[0] or below, start.ends[1] or above)
     return replace(start.with_solved(*down, *up), ends=ends)
 
@@ -72,10 +73,15 @@ def walked(cell: Continuation, start: SolvedRow, aim: Aim) -> SolvedRow:
 def _low_enough(walk: list[Solved], aim: Aim) -> bool:
     """Whether the rotation has passed the lower one, and neighbours touch if they ever do."""
     end = walk[-1].point
-    if end.rotation > aim.low:
+    if end.rotation > aim.low or end.moment > aim.moments[0]:
         return False
     touching = sum(each.point.touches for each in walk)
     return end.gap is None or touching >= IN_CONTACT or end.rotation < aim.low - aim.high
+
+
+def _high_enough(walk: list[Solved], aim: Aim) -> bool:
+    end = walk[-1].point
+    return end.rotation >= aim.high and end.moment >= aim.moments[1]
 
 
 def _walk(
@@ -95,6 +101,18 @@ def _walk(
             return walk, found
         walk.append(found)
     return walk, ""
+
+
+def retraced(cell: Continuation, row: Row, free: Solved) -> SolvedRow:
+    """The states of a row's points again, from that without a moment; as far as they are found."""
+    found = SolvedRow((free,))
+    inner_first = sorted(row.points, key=lambda point: abs(point.moment))
+    for point in inner_first:
+        near = found.solved[0] if point.moment < 0 else found.solved[-1]
+        again = cell.beside(near, point.pressure, point.moment)
+        if not isinstance(again, str):
+            found = found.with_solved(again)
+    return found
 
 
 def refined(cell: Continuation, row: SolvedRow, aim: Aim) -> SolvedRow:

@@ -1,0 +1,91 @@
+"""Laws in the store: found again as they were, counted and removed like evaluations."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from made_up_law import AT_REST, MadeUp
+from meshes import bellows_cell_mesh
+
+from bellows_design.budget import DEFAULT
+from bellows_design.design.shipped import load_design
+from bellows_design.force.law.ends import EndHinge, EndPoint
+from bellows_design.force.law.errors import LawError
+from bellows_design.force.law.half_bubble import CellLaw, Effort
+from bellows_design.force.law.interpolation.tabulated import TabulatedLaw
+from bellows_design.force.law.kept import find, keep, key_of_law
+from bellows_design.store.store import Store
+
+DESIGN = load_design("finger")
+KEY = key_of_law(DESIGN, 0.01, DEFAULT)
+LOADS = np.array([[-31.0, -1.0, 0.3], [12.0, 0.1, 0.0]])
+
+
+@pytest.fixture(scope="module")
+def law() -> CellLaw:
+    table = MadeUp(stiffer=0.7).table(3, 5)
+    return CellLaw(
+        design=DESIGN,
+        tabulated=TabulatedLaw(10.0, table, 1.02, AT_REST, 0.05),
+        end=EndHinge((EndPoint(0.0, 0.0, 1e-3, 1.0), EndPoint(0.1, 0.02, 1e-3, 2.0))),
+        free_rotation=0.3,
+        tolerance=0.01,
+        stress_factor=1.5,
+        error=LawError(1e-3, 2e-3, 3e-3, None),
+        mesh=bellows_cell_mesh(),
+        effort=Effort(7, 0.5),
+    )
+
+
+def test_a_law_is_found_again_as_it_was(tmp_path: Path, law: CellLaw) -> None:
+    store = Store(tmp_path)
+    assert find(store, KEY, DESIGN) is None
+    keep(store, KEY, law)
+    again = find(store, KEY, DESIGN)
+    assert again is not None
+    ours, theirs = (each.response(0.04, LOADS) for each in (law, again))
+    assert (ours.motion == theirs.motion).all()
+    assert (ours.compliance == theirs.compliance).all()
+    assert again.error == law.error
+    assert again.design is DESIGN
+
+
+def test_a_law_of_another_tolerance_or_design_is_not_found(tmp_path: Path, law: CellLaw) -> None:
+    store = Store(tmp_path)
+    keep(store, KEY, law)
+    other = load_design("prototype_1")
+    for key in (key_of_law(DESIGN, 0.02, DEFAULT), key_of_law(other, 0.01, DEFAULT)):
+        assert find(store, key, DESIGN) is None
+
+
+def test_laws_are_counted_and_removed_with_the_evaluations(tmp_path: Path, law: CellLaw) -> None:
+    store = Store(tmp_path)
+    keep(store, KEY, law)
+    assert store.holdings().results == store.holdings().usable == 1
+    assert store.clear() == 0
+    assert store.holdings().results == 0
+    assert find(store, KEY, DESIGN) is None
+
+
+def test_nothing_is_looked_for_or_kept_without_a_store(law: CellLaw) -> None:
+    keep(None, KEY, law)
+    assert find(None, KEY, DESIGN) is None
+
+
+def test_where_no_neighbour_stops_it_the_half_bubble_stays_as_soft_as_it_was(law: CellLaw) -> None:
+    pressed = np.array([[-55.0, 0, 0]])
+    outer = law.without_contact.response(0.05, pressed).compliance[0, 0, 0]
+    inner = law.response(0.05, pressed).compliance[0, 0, 0]
+    assert outer > 2 * inner
+    assert law.touching(0.05, pressed)
+    assert not law.touching(0.05, -pressed)
+
+
+def test_the_stress_is_that_of_the_piece_under_the_largest_one(law: CellLaw) -> None:
+    stress, error = law.stress(0.04, np.array([[-40.0, 0, 0], [10.0, 0, 0]]))
+    assert stress == pytest.approx(1.5 * 40 / 20, rel=0.02)
+    assert error is None
+    assert replace(law, stress_factor=3.0).stress(0.04, LOADS)[0] == 2 * law.stress(0.04, LOADS)[0]
