@@ -1,8 +1,9 @@
 """The branch of equilibria that a real finger follows as loads grow from nothing.
 
 Every step starts from the state before; Newton's first iteration is the tangent at that state, and
-a step counts only if the equilibrium found is stable and near where the tangent pointed. Otherwise
-the step is halved, down to a part of the way that decides nothing.
+a step counts only if the equilibrium found is stable, near where the tangent pointed, and reached
+without passing through objects. Otherwise the step is halved, down to a part of the way that
+decides nothing.
 """
 
 from __future__ import annotations
@@ -24,6 +25,7 @@ from bellows_design.force.chain.readings import state_of, unknowns_of
 from bellows_design.force.chain.settling import settled
 from bellows_design.force.chain.state import ChainState
 from bellows_design.force.chain.surroundings import LoadPoint, Surroundings
+from bellows_design.force.chain.sweep import Moment, passed_through
 
 SMALLEST_STEP = 1 / 2048
 """Part of the way between two wanted loads."""
@@ -80,6 +82,16 @@ class Path:
     def last(self) -> ChainState:
         """The last good state."""
         return self.steps[-1]
+
+    @property
+    def work_of_pressure(self) -> float:
+        """Of the air on the pieces from the first step to the last, N mm, by the trapezoid rule.
+
+        Its error falls with the square of the steps; where the finger jumps it does not count what
+        is lost in motion.
+        """
+        pressures = [state.pressure for state in self.steps]
+        return float(np.trapezoid(pressures, [state.volume for state in self.steps]))
 
 
 def follow(
@@ -183,9 +195,18 @@ def _attempt(loaded: LoadedChain, last: ChainState, load: LoadPoint) -> ChainSta
     state = state_of(loaded, load, found)
     if not state.stable:
         return _ending("instability" if np.isfinite(state.margin) else "law", load)
-    if _corrected(loaded, found) > LARGEST_CORRECTION:
+    if _corrected(loaded, found) > LARGEST_CORRECTION or _passed(loaded, last, state):
         return _ending("jump", load)
     return state
+
+
+def _passed(loaded: LoadedChain, before: ChainState, after: ChainState) -> bool:
+    """Whether a step leads through an object."""
+    first, last = (
+        Moment(each.motions, each.load.object_shift, each.history.positions)
+        for each in (before, after)
+    )
+    return passed_through(loaded, first, last)
 
 
 def _corrected(loaded: LoadedChain, found: Equilibrium) -> float:

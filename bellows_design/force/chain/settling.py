@@ -20,6 +20,7 @@ from bellows_design.force.chain.readings import history_of, state_of, unknowns_o
 from bellows_design.force.chain.stability import least_stable_motion
 from bellows_design.force.chain.state import ChainState
 from bellows_design.force.chain.surroundings import LoadPoint
+from bellows_design.force.chain.sweep import Moment, passed_through
 
 NUDGE = 0.02
 """Rotation of a piece by which it is moved off an unstable equilibrium, rad."""
@@ -81,11 +82,14 @@ def _aside(found: Equilibrium) -> Unknowns:
 def _moment(
     loaded: LoadedChain, load: LoadPoint, at: Unknowns, history: ContactHistory, time: float
 ) -> Equilibrium | None:
-    """The motion's next moment; None if it is not found."""
+    """The motion's next moment; None if it is not found, or behind an object."""
     try:
-        return solve(loaded, load, at, history, Drag(at.motions, 1 / time))
+        found = solve(loaded, load, at, history, Drag(at.motions, 1 / time))
     except BellowsError:
         return None
+    before = Moment(at.motions, load.object_shift, history.positions)
+    after = Moment(found.at.motions, load.object_shift, found.balance.positions)
+    return None if passed_through(loaded, before, after) else found
 
 
 def _turn(before: Unknowns, after: Unknowns) -> float:

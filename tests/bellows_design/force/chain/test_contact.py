@@ -153,6 +153,17 @@ def test_a_floor_drags_a_beam_until_it_slips_and_back_at_once() -> None:
     assert fro.contact_force[0] == pytest.approx(-0.4 * fro.contact_force[1], rel=1e-12)
 
 
+@pytest.mark.parametrize("obstacle", [Disc((30.0, -22.0), 14.0), Disc((38.0, -12.0), 3.0)])
+def test_a_finger_does_not_pass_through_an_object_in_one_step(obstacle: Disc) -> None:
+    """Beyond it there is an equilibrium too, as if it were not there."""
+    around = Surroundings(objects=(obstacle,))
+    at_once = follow(beam(14, 3 * CURL), around, [0.1])
+    slowly = follow(beam(14, 3 * CURL), around, np.linspace(0.005, 0.1, 20))
+    assert at_once.ending is None and slowly.ending is None
+    assert at_once.last.contacts
+    assert at_once.last.tip == pytest.approx(slowly.last.tip, abs=1e-3)
+
+
 def test_friction_never_exceeds_its_coefficient() -> None:
     state = pressed_on(ContactModel(), Disc((30.0, -22.0), 14.0), 0.3)
     for point in state.contacts:
