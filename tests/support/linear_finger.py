@@ -23,10 +23,11 @@ BEND = np.radians(3.3) / 10
 
 @dataclass(frozen=True)
 class Known:
-    """Facts of a law: what touches, how high the stress is (MPa, ± 5 %), what is unknown."""
+    """Facts of a law: unknown rotations, stress (MPa, ± 5 %), and reach (N mm)."""
 
     rotations: Uncertainty = field(default_factory=Uncertainty)
     von_mises: float = 2.0
+    reach: float = 60.0
 
     def touching(self, pressure: float, loads: Reals) -> bool:
         """Where a section bears more than 20 N mm."""
@@ -41,8 +42,8 @@ class Known:
         return self.rotations
 
     def within(self, pressure: float, loads: Reals) -> bool:
-        """Up to 60 N mm."""
-        return bool((abs(loads[:, 0]) < 60).all())
+        """Up to ``reach``, N mm."""
+        return bool((abs(loads[:, 0]) < self.reach).all())
 
 
 def linear_law(**facts: object) -> FingerLaw:
