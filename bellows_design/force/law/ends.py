@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from bellows_design.errors import BellowsError
 from bellows_design.force.law.interpolation.points import HALVES
 from bellows_design.force.section_law import SectionLaw, SectionResponse
 from solver.arrays import Reals
@@ -96,7 +97,10 @@ def end_hinge(short: Problem, inner: SectionLaw, pressures: tuple[float, ...]) -
     Args:
         short: the half of an actuator of one bubble, or a bubble without neighbours.
         inner: half a bubble without neighbours.
-        pressures: at which it is solved, 0 among them; as far as they are reached.
+        pressures: at which it is solved, 0 among them.
+
+    Raises:
+        BellowsError: it does not reach them.
     """
     return EndHinge(tuple(_end_point(each, inner) for each in _solutions(short, pressures)))
 
@@ -107,8 +111,9 @@ def _solutions(short: Problem, pressures: tuple[float, ...]) -> list[Solution]:
 
     ordered = sorted(pressures, key=abs)
     found = solve(short, ordered[-1], stops=[each for each in ordered[:-1] if each])
-    at_rest = solve(short, 0.0)
-    reached = [at_rest, *found.at_stops, *([found] if found.converged else [])]
+    if not found.converged:
+        raise BellowsError(f"there is no law of the ends: {found.message}")
+    reached = [solve(short, 0.0), *found.at_stops, found]
     return sorted(reached, key=lambda each: each.pressure)
 
 

@@ -79,7 +79,9 @@ class CellLaw:
     def without_contact(self) -> TabulatedLaw:
         """The outer halves of the first and the last bubble, which no neighbour stops.
 
-        Where neighbours would touch, the compliance stays what it was before. Where they touch
+        Where neighbours would touch, the compliance stays what it was before. Against Prototype 1's
+        cell without contact at 0.1 MPa the rotation is then too large by 0.2, 0.6 and 1.9 degrees
+        at 1.5, 2.1 and 2.6 times the moment at which neighbours begin to touch. Where they touch
         without a moment already, the law with contact stands for it.
         """
         apart = self.table.apart

@@ -44,11 +44,6 @@ class Piecewise:
         shift = origins - self.origins[own]
         return Piecewise(breaks, shifted(self.coefficients[own], shift))
 
-    def values(self, places: Reals, order: int = 0) -> Reals:
-        """A derivative of the functions at places (k,): (k, ...)."""
-        own = pieces(self.breaks, places)
-        return evaluated(self.coefficients[own], places - self.origins[own], order)
-
     @cached_property
     def origins(self) -> Reals:
         """Of every piece, (b + 1,)."""
@@ -71,7 +66,7 @@ def evaluated(coefficients: Reals, distances: Reals, order: int = 0) -> Reals:
 FACTORS = np.array(
     [
         [np.prod(np.arange(power, power - order, -1.0)) for power in range(DEGREE + 1)]
-        for order in range(4)
+        for order in range(3)
     ]
 )
 """Of powers (columns) in derivatives of an order (rows)."""

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
-from made_up_law import MadeUp
+from made_up_law import AT_REST, MadeUp
 
 from bellows_design.errors import BellowsError
 from bellows_design.force.law.interpolation.table import Table
@@ -21,7 +22,7 @@ LAWS = {"smooth": MadeUp(), "contact": MadeUp(stiffer=0.7)}
 
 @pytest.fixture(params=LAWS)
 def law(request: pytest.FixtureRequest) -> TabulatedLaw:
-    return TabulatedLaw(10.0, LAWS[request.param].table(4, 7), 0.05)
+    return TabulatedLaw(10.0, LAWS[request.param].table(4, 7), 1.04, AT_REST, 0.05)
 
 
 def difference(
@@ -61,6 +62,7 @@ def test_the_compliance_is_symmetric(law: TabulatedLaw) -> None:
 
 
 def test_the_law_passes_through_its_points(law: TabulatedLaw) -> None:
+    law = replace(law, softening=1.0)
     for row in law.table.rows:
         loads = np.stack([row.moments, *np.zeros((2, len(row.moments)))], axis=1)
         at = law.response(row.pressure, loads)
@@ -91,6 +93,14 @@ def test_the_error_of_a_smooth_law_falls_as_that_of_its_polynomials(
     coarse, fine = (error(*each) for each in zip(pressures, moments, strict=True))
     ratio = max((pressures[1] - 1) / (pressures[0] - 1), (moments[1] - 1) / (moments[0] - 1))
     assert fine < coarse / ratio**order
+
+
+def test_a_correction_softens_all_motion_alike_but_the_slip(law: TabulatedLaw) -> None:
+    as_on_the_mesh = replace(law, softening=1.0).response(0.043, LOADS)
+    at = law.response(0.043, LOADS)
+    assert at.motion[:, :2] == pytest.approx(1.04 * as_on_the_mesh.motion[:, :2])
+    assert (at.motion[:, 2] == as_on_the_mesh.motion[:, 2]).all()
+    assert at.volume - AT_REST == pytest.approx(1.04 * (as_on_the_mesh.volume - AT_REST))
 
 
 def test_a_kink_that_moves_with_the_pressure_stays_sharp_between_rows() -> None:
