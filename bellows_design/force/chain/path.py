@@ -49,8 +49,8 @@ class Ending:
     Attributes:
         cause: ``instability``: equilibria go on, but are unstable; ``limit point``: there is none
             near, and the last one is about to lose its stability; ``jump``: the next one found is
-            stable, but far away; ``law``: that of a piece does not reach so far, or has no
-            positive compliance there; ``no equilibrium``: Newton's method found none.
+            stable, but far away; ``law``: that of a piece does not reach so far, or is
+            unstable there by itself; ``no equilibrium``: Newton's method found none.
         sentence: the same for users.
         load: where no more equilibrium was found.
         beyond: the stable equilibrium at ``load`` in which the finger comes to rest, if found.
@@ -216,7 +216,7 @@ def _corrected(loaded: LoadedChain, found: Equilibrium) -> float:
 
 
 SENTENCES: dict[str, str] = {
-    "law": "the law of a piece has no positive compliance under its section loads",
+    "law": "a piece of the finger is unstable by itself under its section loads",
     "instability": "the finger becomes unstable: it snaps away",
     "limit point": "the finger finds no equilibrium near the last one: it snaps away",
     "jump": "the finger jumps to another equilibrium",

@@ -17,7 +17,7 @@ from solver.arrays import Reals
 def state_of(loaded: LoadedChain, load: LoadPoint, found: Equilibrium) -> ChainState:
     """The record of an equilibrium under ``load``."""
     at, balance = found.at, found.balance
-    margin = stability_margin(balance, found.holding)
+    margin = stability_margin(balance, found.holding, loaded.chain.softest)
     volume = float(balance.response.volume.sum())
     stored = (at.loads * at.motions).sum() + load.pressure * volume - balance.response.energy.sum()
     x, z, moment = (float(value) for value in at.held)

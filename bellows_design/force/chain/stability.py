@@ -11,17 +11,19 @@ from solver.arrays import Reals
 TIP_Z = 1
 
 
-def stability_margin(balance: Balance, holding: NDArray[np.bool_]) -> float:
+def stability_margin(balance: Balance, holding: NDArray[np.bool_], softest: float) -> float:
     """Least real part of an eigenvalue λ of (C⁻¹ + P'') v = λ C⁻¹ v among motions v that are free.
 
     C is the compliance of the pieces, which may be rigid: the eigenvalues are those of I + C P''.
     Those of motions that the hold forbids are left out by the projection along C Bᵀ, with B the
     derivative of what is held. With friction P'' is not symmetric, and a negative real part means
-    that a small motion against damping in proportion to C⁻¹ grows. Minus infinity where a piece is
-    unstable by itself, its compliance not positive.
+    that a small motion against damping in proportion to C⁻¹ grows.
+
+    Minus infinity where a piece is unstable by itself. Its stiffness then passed through zero and
+    its compliance through infinity. A compliance that is negative but smaller than ``softest``, the
+    largest one at rest, is an error of an interpolated law, and is not taken for that.
     """
-    compliance = np.linalg.eigvalsh(balance.response.compliance)
-    if (compliance.min(axis=1) < -1e-9 * compliance.max(axis=1)).any():
+    if np.linalg.eigvalsh(balance.response.compliance).min() < -softest:
         return -np.inf
     return float(np.linalg.eigvals(_free_operator(balance, holding)).real.min())
 

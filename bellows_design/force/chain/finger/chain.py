@@ -105,6 +105,12 @@ class Chain:
         return float(self.joints[-1] + self.tip_length)
 
     @cached_property
+    def softest(self) -> float:
+        """Largest eigenvalue of the pieces' compliances at rest, rad and mm by N mm and N."""
+        at_rest = self.response(0.0, np.zeros((len(self.pieces), 3)))
+        return float(np.linalg.eigvalsh(at_rest.compliance).max())
+
+    @cached_property
     def _laws(self) -> tuple[tuple[SectionLaw, Sequence[int]], ...]:
         """Every law and the numbers of the pieces that follow it."""
         laws = {id(piece.law): piece.law for piece in self.pieces}
