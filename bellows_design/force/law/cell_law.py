@@ -31,8 +31,8 @@ if TYPE_CHECKING:
 __all__ = ["CellLaw", "cell_law", "extended"]
 
 TOLERANCE = 0.01
-"""Of the interpolated rotation, relative to the free rotation at the design's pressure. Mesh and ends
-are uncertain by more on Prototype 1 (`tests/benchmarks/cell_laws.json`)."""
+"""Of the interpolated rotation, relative to the free rotation at the design's pressure. By mesh
+and ends Prototype 1 is less certain (`tests/benchmarks/cell_laws.json`)."""
 
 FIRST_ROWS = (0.0, 0.25, 0.5, 1.0)
 """Pressures of the first rows, relative to the design's."""
