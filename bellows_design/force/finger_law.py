@@ -84,6 +84,7 @@ class FingerLaw:
         root_hinge: Of what the root adds, None for nothing.
         tip_hinge: Of what the tip adds, likewise.
         facts: What is known besides.
+        warnings: Sentences on what makes it less reliable than it looks.
         from_cache: When it was computed (UTC), where it comes from the store; else empty.
         seconds: Time of its computation, s.
     """
@@ -93,5 +94,6 @@ class FingerLaw:
     root_hinge: SectionLaw | None = None
     tip_hinge: SectionLaw | None = None
     facts: Facts = field(default_factory=NoFacts)
+    warnings: tuple[str, ...] = ()
     from_cache: str = ""
     seconds: float = 0.0

@@ -23,6 +23,11 @@ if TYPE_CHECKING:
 MOST_EXTENSIONS = 2
 """Of a law's table, for one scene: each may lead the chain to other moments."""
 
+UNFINISHED = (
+    "the time was over before the law's table was as fine as asked for: the error of its "
+    "interpolation may be larger than stated (--seconds gives it more)."
+)
+
 FURTHER = 1.15
 """Times the moments that were met: so far a table is extended."""
 
@@ -73,6 +78,7 @@ def finger_law(law: CellLaw) -> FingerLaw:
         root_hinge=law.end,
         tip_hinge=law.end,
         facts=CellFacts(law),
+        warnings=() if law.error.complete else (UNFINISHED,),
         from_cache=law.from_cache,
         seconds=law.effort.seconds,
     )

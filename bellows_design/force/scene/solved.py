@@ -62,9 +62,10 @@ class Solved:
             for jump in self.path.jumps
         )
         if not self.beyond:
-            return jumps
+            return (*self.law.warnings, *jumps)
         first = self.beyond[0].pressure
         return (
+            *self.law.warnings,
             *jumps,
             f"from {first:.3g} MPa on sections bear moments beyond those that the law was computed "
             "for: it is extrapolated there.",
