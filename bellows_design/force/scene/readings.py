@@ -15,6 +15,7 @@ from bellows_design.force.chain.grip import Pull, pulled
 from bellows_design.force.chain.loaded_chain import LoadedChain
 from bellows_design.force.chain.path import Path
 from bellows_design.force.chain.state import ChainState, ContactPoint
+from bellows_design.force.chain.surroundings import LoadPoint
 from bellows_design.force.finger_law import FingerLaw
 from bellows_design.force.result import ForceReading, Point
 from bellows_design.force.scene.dead_volume import dead_volume
@@ -66,7 +67,7 @@ class Readings:
         stress, stress_error = facts.stress(state.pressure, loads) or (None, None)
         return ForceReading(
             pressure_mpa=state.pressure,
-            distance_mm=self.distance(state) if isinstance(self.scene, Blocked) else None,
+            distance_mm=self.distance(state.load) if isinstance(self.scene, Blocked) else None,
             force_n=force(state),
             components_n=(x, z),
             moment_n_mm=moment,
@@ -84,12 +85,24 @@ class Readings:
             largest_payload_g=payload,
         )
 
-    def distance(self, state: ChainState) -> float:
+    def presses(self, state: ChainState) -> bool:
+        """Whether the finger presses on what blocks it; on a load cell only with its tip.
+
+        Turned by more than half a turn it would lie on the plate with other points.
+        """
+        return force_of(self.scene, state) > 0 and not self.past(state)
+
+    def past(self, state: ChainState) -> bool:
+        """Whether a tip on a load cell has turned by more than half a turn."""
+        load_cell = isinstance(self.scene, Blocked) and self.scene.support == "load_cell"
+        return load_cell and state.held_force[1] > 0 and state.tip[2] > math.pi
+
+    def distance(self, load: LoadPoint) -> float:
         """From the lower side at rest down to what blocks the finger, mm; 0 where nothing does."""
         if not isinstance(self.scene, Blocked):
             return 0.0
         wall = self.scene.support == "wall"
-        shift = state.load.object_shift if wall else state.load.hold_shift
+        shift = load.object_shift if wall else load.hold_shift
         return self.scene.distance - shift[1]
 
     def lowest(self, state: ChainState) -> float:
@@ -117,23 +130,39 @@ class Readings:
         return state.tip_stiffness if blocked and not state.contacts else None
 
     def _gripping(self, state: ChainState) -> tuple[ChainState, bool | None, float | None]:
-        """The state under the object's weight, whether it is held, and the largest mass (g)."""
+        """The state under the object's weight, whether it is held, and the largest mass (g).
+
+        Where the closed finger pushes the object towards its root by more than the weight, the
+        object keeps its place.
+        """
         if not isinstance(self.scene, Grip):
             return state, None, None
         fingers, mass = self.scene.fingers, self.scene.mass_g
         found = pulled(self.loaded, Path((state,), (state,), None), PULL)
-        held = found.under(1e-3 * GRAVITY * mass / fingers)
+        hanging = None if self.drawn_in(state) > 0 else found.under(_weight(self.scene))
         grams = 1e3 * fingers * found.largest_force / GRAVITY
-        return held or state, grams >= mass, grams
+        return hanging or state, grams >= mass, grams
+
+    def drawn_in(self, state: ChainState) -> float:
+        """What a closed finger pushes an object towards its root with, beyond its weight, N."""
+        if not isinstance(self.scene, Grip):
+            return 0.0
+        return PULL.force(state) - _weight(self.scene)
 
     def _shape(self, state: ChainState) -> tuple[Point, ...]:
         """The lower side, about every mm."""
         positions = self.loaded.contacts.positions(state.frames[1:-1])
-        return tuple((float(x), float(z)) for x, z in [*positions[:-1:2], positions[-1]])
+        every = max(1, round(1 / self.loaded.widths[0]))
+        return tuple((float(x), float(z)) for x, z in [*positions[:-1:every], positions[-1]])
 
     def _touched(self, state: ChainState) -> tuple[Point, ...]:
         points = tuple(point.position for point in state.contacts)
         return (*points, state.tip[:2]) if any(state.held_force) else points
+
+
+def _weight(scene: Grip) -> float:
+    """Of the object, on every finger, N."""
+    return 1e-3 * GRAVITY * scene.mass_g / scene.fingers
 
 
 def _moment(point: ContactPoint, tip: Wrench) -> float:

@@ -16,6 +16,7 @@ from bellows_design.force.chain.path import Path, follow
 from bellows_design.force.chain.state import ChainState
 from bellows_design.force.finger_law import FingerLaw
 from bellows_design.force.scene.surroundings import surroundings_of, weights_of
+from bellows_design.geometry.ends import tip_stub
 
 STROKE_STEPS = 16
 """At least so many steps of pressure make a stroke: its work is a sum over them."""
@@ -48,7 +49,7 @@ class Solved:
         """Follow the path from rest to the last pressure, past jumps to where it comes to rest."""
         started = time.perf_counter()
         chain = chain_of(design, law)
-        surroundings = surroundings_of(scene, design.bellows)
+        surroundings = surroundings_of(scene, design.finger_length)
         path = follow(chain, surroundings, _with_steps(pressures), jumps=True)
         loaded = LoadedChain.of(chain, surroundings)
         seconds = time.perf_counter() - started
@@ -89,14 +90,9 @@ class Solved:
 
 
 def chain_of(design: Design, law: FingerLaw) -> Chain:
-    """The finger of ``design`` with its weights."""
-    chain = Chain.of(
-        design.bellows,
-        law.piece,
-        root_hinge=law.root_hinge,
-        tip_hinge=law.tip_hinge,
-        weights=weights_of(design),
-    )
+    """The finger of ``design`` with its weights and its fingertip."""
+    chain, stub = _chain(design, law), tip_stub(design)
+    chain = replace(chain, tip_length=stub.length, tip_height=stub.height)
     if law.outer is None:
         return chain
     halves = np.flatnonzero(chain.lengths > 0)
@@ -104,6 +100,17 @@ def chain_of(design: Design, law: FingerLaw) -> Chain:
     for number in (halves[0], halves[-1]):
         pieces[number] = replace(pieces[number], law=law.outer)
     return replace(chain, pieces=tuple(pieces))
+
+
+def _chain(design: Design, law: FingerLaw) -> Chain:
+    """With the same law everywhere, and the end of the tendon for a tip."""
+    return Chain.of(
+        design.bellows,
+        law.piece,
+        root_hinge=law.root_hinge,
+        tip_hinge=law.tip_hinge,
+        weights=weights_of(design),
+    )
 
 
 def _with_steps(pressures: Sequence[float]) -> list[float]:
