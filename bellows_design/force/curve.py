@@ -95,7 +95,10 @@ def _curve(solved: Solved, name: str, flow: float, by_distance: bool) -> ForceCu
         pneumatic_work_mj=_pneumatic_work(solved.path),
         tip_work_mj=away.work,
         air=_air(readings, solved.path, flow),
-        warnings=(*solved.warnings, *told, *away.warnings),
+        warnings=(*solved.warnings, *told, *curve[-1].warnings, *away.warnings),
+        extrapolated=bool(solved.beyond),
+        law_complete=solved.law.complete,
+        jumped=bool(solved.path.jumps),
         seconds=Seconds(solved.law.seconds, seconds),
         from_cache=solved.law.from_cache,
     )
@@ -127,13 +130,7 @@ def _told(readings: Readings, state: ChainState) -> tuple[str, ...]:
             f"the tip has turned by {math.degrees(state.tip[2]):.0f}° past the load cell: a real "
             "finger would lie on it with other points, as on a wall.",
         )
-    force = readings.drawn_in(state)
-    if force <= 0:
-        return ()
-    return (
-        f"the closed fingers draw the object towards their roots, each by {force:.3g} N more than "
-        "its weight: readings are those of an object that is kept in its place.",
-    )
+    return ()
 
 
 def _pneumatic_work(path: Path) -> float:

@@ -85,6 +85,7 @@ class FingerLaw:
         tip_hinge: Of what the tip adds, likewise.
         facts: What is known besides.
         warnings: Sentences on what makes it less reliable than it looks.
+        complete: Whether it is as fine as asked for; else its time was over.
         from_cache: When it was computed (UTC), where it comes from the store; else empty.
         seconds: Time of its computation, s.
     """
@@ -95,5 +96,6 @@ class FingerLaw:
     tip_hinge: SectionLaw | None = None
     facts: Facts = field(default_factory=NoFacts)
     warnings: tuple[str, ...] = ()
+    complete: bool = True
     from_cache: str = ""
     seconds: float = 0.0

@@ -79,6 +79,7 @@ def finger_law(law: CellLaw) -> FingerLaw:
         tip_hinge=law.end,
         facts=CellFacts(law),
         warnings=() if law.error.complete else (UNFINISHED,),
+        complete=law.error.complete,
         from_cache=law.from_cache,
         seconds=law.effort.seconds,
     )

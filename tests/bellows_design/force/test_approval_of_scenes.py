@@ -17,6 +17,7 @@ from bellows_design.design import Design
 from bellows_design.design.scenes.scene import Scene, named_scene
 from bellows_design.export.statements import grounds
 from bellows_design.force.curve import force_curve
+from bellows_design.force.finger_law import FingerLaw, Uncertainty
 from bellows_design.force.result import SceneResult
 from bellows_design.leak_test.record import Unavailable
 from bellows_design.pipeline import run
@@ -24,8 +25,11 @@ from bellows_design.reports.outcome import outcome_table
 
 GOOD = FakeEvaluation(max_von_mises_mpa=2.0, error_estimate=FakeEstimate(2.0))
 CUP = {
-    "kind": "grip", "size": 30.0, "mass_g": 50.0, "distance": 18.0, "place": 38.0,
+    "kind": "grip", "size": 30.0, "mass_g": 50.0, "distance": 18.0, "place": 44.0,
 }  # fmt: skip
+
+FAR = 1000.0
+"""N mm: more than any section bears."""
 
 
 def holding(*names: str, **scenes: Any) -> Design:
@@ -34,10 +38,10 @@ def holding(*names: str, **scenes: Any) -> Design:
     return Design.of(table | {"scenes": scenes, "limits": {"scenes": list(names)}})
 
 
-def result(design: Design, name: str, stress: float = 2.0) -> SceneResult:
+def result(design: Design, name: str, law: FingerLaw | None = None, **facts: Any) -> SceneResult:
     """A scene's result by the linear law."""
     _, scene = named_scene(name, design.scenes)
-    law = linear_law(von_mises=stress)
+    law = law or linear_law(**({"reach": FAR} | facts))
     return SceneResult(name, force_curve(design, scene, (0.1,), law, name=name, by_distance=False))
 
 
@@ -65,7 +69,7 @@ def test_the_stress_under_a_scenes_load_counts_with_its_error(
 ) -> None:
     """Prototype 1 yields at 4 MPa, and the law is good for 5 %."""
     design = holding("blocked")
-    found = verdict(design, result(design, "blocked", stress))
+    found = verdict(design, result(design, "blocked", von_mises=stress))
     assert found.approved == approved
     assert [(each.kind, each.unit) for each in found.reasons] == [("scene", "MPa")] * (not approved)
 
@@ -78,6 +82,46 @@ def test_a_grip_that_slips_refuses() -> None:
     assert isinstance(reason.measured, float) and 0 < reason.measured < 5000
     light = holding("cup", cup=CUP)
     assert verdict(light, result(light, "cup")).approved
+
+
+def test_an_object_that_does_not_come_to_rest_refuses() -> None:
+    design = holding("cup", cup=CUP | {"place": 38.0})
+    (reason,) = verdict(design, result(design, "cup")).reasons
+    assert (reason.kind, reason.measured) == ("scene", "no equilibrium")
+    assert "draw the object towards their roots" in reason.message
+
+
+@pytest.mark.parametrize(("share", "approved"), [(0.9, True), (0.98, False)])
+def test_the_error_of_the_payload_counts(share: float, approved: bool) -> None:
+    unsure = Uncertainty(mesh=0.01)
+    light = holding("cup", cup=CUP)
+    found = result(light, "cup", rotations=unsure).found
+    assert found is not None and found.last.largest_payload_g is not None
+    error = found.last.largest_payload_error_percent
+    assert error is not None and 2 < error < 10
+    heavy = holding("cup", cup=CUP | {"mass_g": share * found.last.largest_payload_g})
+    decided = verdict(heavy, result(heavy, "cup", rotations=unsure))
+    assert decided.approved == approved
+    assert [each.kind for each in decided.reasons] == ["accuracy"] * (not approved)
+    assert decided.undecided is not approved
+
+
+def test_a_law_beyond_its_table_or_out_of_time_decides_nothing() -> None:
+    design = holding("blocked")
+    (beyond,) = verdict(design, result(design, "blocked", reach=1.0)).reasons
+    assert (beyond.kind, beyond.measured) == ("accuracy", "extrapolated")
+    unfinished = replace(linear_law(reach=FAR), complete=False)
+    (early,) = verdict(design, result(design, "blocked", unfinished)).reasons
+    assert (early.kind, early.measured) == ("accuracy", "unfinished")
+
+
+def test_a_finger_that_jumps_refuses() -> None:
+    design = holding("blocked")
+    whole = result(design, "blocked")
+    assert whole.found is not None and not whole.found.jumped
+    jumped = SceneResult("blocked", replace(whole.found, jumped=True))
+    (reason,) = verdict(design, jumped).reasons
+    assert (reason.kind, reason.measured) == ("scene", "a jump")
 
 
 def test_a_scene_that_is_not_reached_or_unstable_refuses() -> None:
@@ -117,7 +161,7 @@ def test_a_run_states_its_scenes_and_a_design_without_any_states_nothing(
 def by_linear_law(design: Design, scene: Scene, pressures: tuple[float, ...], **known: Any) -> Any:
     """A force curve by the linear law."""
     names = {name: known[name] for name in ("name", "by_distance")}
-    return force_curve(design, scene, pressures, linear_law(), **names)
+    return force_curve(design, scene, pressures, linear_law(reach=FAR), **names)
 
 
 def test_a_scene_that_cannot_be_refuses_in_its_own_words(

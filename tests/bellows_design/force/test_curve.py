@@ -23,12 +23,19 @@ from solver.arrays import Reals
 SMALL = 1e-4
 """MPa: rotations of some 0.01 rad in all, so that squares of them are below 1e-3."""
 
-GRIP = Grip(size=30.0, mass_g=50.0, distance=18.0, place=38.0)
+GRIP = Grip(size=30.0, mass_g=50.0, distance=18.0, place=44.0)
+DRAWING = Grip(size=30.0, mass_g=50.0, distance=18.0, place=38.0)
+"""Nearer to the root, so that the finger closes beyond the object's middle."""
 
 
 def curve(scene: object, *pressures: float, **facts: object) -> ForceCurve:
     """Of the linear finger."""
     return force_curve(DESIGN, scene, pressures, linear_law(**facts))  # type: ignore[arg-type]
+
+
+def replace_mass(scene: Grip, mass_g: float) -> Grip:
+    """The same grip of another mass."""
+    return Grip.model_validate(scene.model_dump() | {"mass_g": mass_g})
 
 
 def test_a_blocked_tip_exerts_what_bends_all_pieces_back() -> None:
@@ -114,9 +121,46 @@ def test_a_grip_holds_as_much_as_its_fingers_bear_and_no_more() -> None:
     assert curve(lighter, 0.1).last.holds is True
 
 
-def replace_mass(scene: Grip, mass_g: float) -> Grip:
-    """The same grip of another mass."""
-    return Grip.model_validate(scene.model_dump() | {"mass_g": mass_g})
+@pytest.mark.parametrize(
+    "grip",
+    [
+        GRIP,
+        replace_mass(DRAWING, 150.0),
+        Grip(object="box", size=20, mass_g=20, distance=14, place=44),
+    ],
+)
+def test_a_grip_that_holds_is_in_equilibrium_with_its_share_of_the_weight(grip: Grip) -> None:
+    found = curve(grip, 0.1).last
+    assert found.holds
+    assert found.components_n[0] == pytest.approx(-grip.mass_g * 9.80665e-3 / 2, rel=2e-3)
+
+
+def test_an_object_that_is_drawn_in_without_end_is_not_said_to_be_held() -> None:
+    found = curve(DRAWING, 0.1)
+    assert found.last.holds is None
+    assert found.last.largest_payload_g is not None and found.last.largest_payload_g > 50
+    assert any("draw the object towards their roots" in each for each in found.warnings)
+
+
+def test_an_object_that_slips_is_said_to_be_kept_in_its_place() -> None:
+    found = curve(replace_mass(GRIP, 5000.0), 0.1)
+    assert found.last.holds is False
+    assert any("slips out of the grip" in each for each in found.warnings)
+
+
+def test_the_payload_is_as_uncertain_as_the_law_that_it_is_found_by() -> None:
+    part = 1e-4
+    known = linear_law(rotations=Uncertainty(mesh=part * TURN * 0.1))
+    found = force_curve(DESIGN, GRIP, (0.1,), known).last
+    more = replace(
+        known,
+        piece=replace(known.piece, motion_by_pressure=(1 + part) * np.array([TURN, 0.0, 0.0])),
+    )
+    again = force_curve(DESIGN, GRIP, (0.1,), more).last
+    assert found.largest_payload_g is not None and again.largest_payload_g is not None
+    assert found.largest_payload_error_percent is not None
+    changed = 100 * abs(again.largest_payload_g / found.largest_payload_g - 1)
+    assert found.largest_payload_error_percent == pytest.approx(changed, rel=0.2)
 
 
 def test_a_finger_that_touches_its_neighbours_says_so() -> None:
