@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import time
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
@@ -22,7 +21,8 @@ from bellows_design.force.finger_law import FingerLaw
 from bellows_design.force.law_of_design import solved_with_its_law
 from bellows_design.force.result import ForceCurve, Seconds
 from bellows_design.force.scene.distances import Distances, moved_away
-from bellows_design.force.scene.readings import Readings, force_of
+from bellows_design.force.scene.exerted import force_of
+from bellows_design.force.scene.readings import Readings
 from bellows_design.force.scene.solved import Solved
 from bellows_design.progress import SILENCE, Progress
 
@@ -79,7 +79,7 @@ def _curve(solved: Solved, name: str, flow: float, by_distance: bool) -> ForceCu
     ending, last = solved.path.ending, solved.path.last
     if ending is None:
         _require_touched(readings, last)
-    away, told = Distances(), _told(readings, last)
+    away, told = Distances(), _drawn_in(readings, last)
     if by_distance and ending is None:
         away = moved_away(readings, last)
     seconds = solved.seconds + time.perf_counter() - started
@@ -120,13 +120,8 @@ def _require_touched(readings: Readings, state: ChainState) -> None:
     )
 
 
-def _told(readings: Readings, state: ChainState) -> tuple[str, ...]:
-    """What is to be said of the last state."""
-    if readings.past(state):
-        return (
-            f"the tip has turned by {math.degrees(state.tip[2]):.0f}° past the load cell: a real "
-            "finger would lie on it with other points, as on a wall.",
-        )
+def _drawn_in(readings: Readings, state: ChainState) -> tuple[str, ...]:
+    """What is to be said where an object does not stay in its grip by its own weight."""
     force = readings.drawn_in(state)
     if force <= 0:
         return ()

@@ -14,37 +14,16 @@ from bellows_design.force.chain.finger.weight import GRAVITY
 from bellows_design.force.chain.grip import Pull, pulled
 from bellows_design.force.chain.loaded_chain import LoadedChain
 from bellows_design.force.chain.path import Path
-from bellows_design.force.chain.state import ChainState, ContactPoint
+from bellows_design.force.chain.state import ChainState
 from bellows_design.force.chain.surroundings import LoadPoint
 from bellows_design.force.finger_law import FingerLaw
 from bellows_design.force.result import ForceReading, Point
 from bellows_design.force.scene.dead_volume import dead_volume
 from bellows_design.force.scene.errors import force_error
+from bellows_design.force.scene.exerted import exerted, force_of
 
 PULL = Pull(step=0.5)
 """How an object is pulled: the largest force that is met counts."""
-
-Wrench = tuple[float, float, float]
-"""x and z of a force (N) and a moment about y (N mm), positive from +x towards -z."""
-
-
-def exerted(state: ChainState) -> Wrench:
-    """Force of the finger on what is around it, and the moment on it about the tip's lower edge.
-
-    Zero where nothing blocks the finger. Of a grip that of one finger.
-    """
-    x, z = state.contact_force
-    held_x, held_z, held_moment = state.held_force
-    moment = held_moment + sum(_moment(point, state.tip) for point in state.contacts)
-    return 0.0 - (x + held_x), 0.0 - (z + held_z), moment
-
-
-def force_of(scene: Scene, state: ChainState) -> float:
-    """The one force of a scene, N: of a grip what presses normal to the object, else the whole."""
-    if isinstance(scene, Grip):
-        return sum(point.normal_force for point in state.contacts)
-    x, z, _ = exerted(state)
-    return math.hypot(x, z)
 
 
 @dataclass(frozen=True)
@@ -84,18 +63,6 @@ class Readings:
             holds=holds,
             largest_payload_g=payload,
         )
-
-    def presses(self, state: ChainState) -> bool:
-        """Whether the finger presses on what blocks it; on a load cell only with its tip.
-
-        Turned by more than half a turn it would lie on the plate with other points.
-        """
-        return force_of(self.scene, state) > 0 and not self.past(state)
-
-    def past(self, state: ChainState) -> bool:
-        """Whether a tip on a load cell has turned by more than half a turn."""
-        load_cell = isinstance(self.scene, Blocked) and self.scene.support == "load_cell"
-        return load_cell and state.held_force[1] > 0 and state.tip[2] > math.pi
 
     def distance(self, load: LoadPoint) -> float:
         """From the lower side at rest down to what blocks the finger, mm; 0 where nothing does."""
@@ -163,9 +130,3 @@ class Readings:
 def _weight(scene: Grip) -> float:
     """Of the object, on every finger, N."""
     return 1e-3 * GRAVITY * scene.mass_g / scene.fingers
-
-
-def _moment(point: ContactPoint, tip: Wrench) -> float:
-    """Moment of a contact's force about the tip's lower edge, N mm."""
-    arm_x, arm_z = point.position[0] - tip[0], point.position[1] - tip[1]
-    return point.force[0] * arm_z - point.force[1] * arm_x
