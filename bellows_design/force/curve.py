@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import math
 import time
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy.integrate import trapezoid
 
 from bellows_design.budget import DEFAULT, Budget
 from bellows_design.design.design import Design
@@ -22,7 +22,8 @@ from bellows_design.force.finger_law import FingerLaw
 from bellows_design.force.law_of_design import solved_with_its_law
 from bellows_design.force.result import ForceCurve, Seconds
 from bellows_design.force.scene.distances import Distances, moved_away
-from bellows_design.force.scene.readings import Readings, force_of
+from bellows_design.force.scene.exerted import force_of
+from bellows_design.force.scene.readings import Readings
 from bellows_design.force.scene.solved import Solved
 from bellows_design.progress import SILENCE, Progress
 
@@ -79,7 +80,7 @@ def _curve(solved: Solved, name: str, flow: float, by_distance: bool) -> ForceCu
     ending, last = solved.path.ending, solved.path.last
     if ending is None:
         _require_touched(readings, last)
-    away, told = Distances(), _told(readings, last)
+    away = Distances()
     if by_distance and ending is None:
         away = moved_away(readings, last)
     seconds = solved.seconds + time.perf_counter() - started
@@ -95,7 +96,7 @@ def _curve(solved: Solved, name: str, flow: float, by_distance: bool) -> ForceCu
         pneumatic_work_mj=_pneumatic_work(solved.path),
         tip_work_mj=away.work,
         air=_air(readings, solved.path, flow),
-        warnings=(*solved.warnings, *told, *curve[-1].warnings, *away.warnings),
+        warnings=(*solved.warnings, *curve[-1].warnings, *away.warnings),
         extrapolated=bool(solved.beyond),
         law_complete=solved.law.complete,
         jumped=bool(solved.path.jumps),
@@ -123,21 +124,11 @@ def _require_touched(readings: Readings, state: ChainState) -> None:
     )
 
 
-def _told(readings: Readings, state: ChainState) -> tuple[str, ...]:
-    """What is to be said of the last state."""
-    if readings.past(state):
-        return (
-            f"the tip has turned by {math.degrees(state.tip[2]):.0f}° past the load cell: a real "
-            "finger would lie on it with other points, as on a wall.",
-        )
-    return ()
-
-
 def _pneumatic_work(path: Path) -> float:
     """Work of the pressure on the volume from rest to the last state, N mm."""
     pressures = np.array([state.pressure for state in path.steps])
     volumes = np.array([state.volume for state in path.steps])
-    return float(np.trapezoid(pressures, volumes))
+    return float(trapezoid(pressures, volumes))
 
 
 def _air(readings: Readings, path: Path, flow: float) -> Air:

@@ -6,13 +6,16 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.integrate import trapezoid
 
 from bellows_design.design.scenes.blocked import Blocked
 from bellows_design.force.chain.path import Path, follow_loads
 from bellows_design.force.chain.state import ChainState
 from bellows_design.force.chain.surroundings import LoadPoint
 from bellows_design.force.result import ForceReading
-from bellows_design.force.scene.readings import Readings, force_of
+from bellows_design.force.scene.exerted import force_of
+from bellows_design.force.scene.readings import Readings
+from bellows_design.force.scene.support import presses
 
 INTERVALS = 10
 """From the support's place to where the finger would leave it by its first stiffness."""
@@ -38,13 +41,13 @@ def moved_away(readings: Readings, state: ChainState) -> Distances:
     """
     scene = readings.scene
     supported = isinstance(scene, Blocked) and scene.support != "held"
-    if not supported or not readings.presses(state):
+    if not supported or not presses(scene, state):
         return Distances()
     states, warnings = _states(readings, state)
     found = tuple(readings.of(each) for each in states)
     forces = np.array([-each.components_n[1] for each in found])
     places = np.array([each.distance_mm for each in found], dtype=float)
-    return Distances(found, float(np.trapezoid(forces, places)), warnings)
+    return Distances(found, float(trapezoid(forces, places)), warnings)
 
 
 def _states(readings: Readings, start: ChainState) -> tuple[list[ChainState], tuple[str, ...]]:
@@ -54,7 +57,7 @@ def _states(readings: Readings, start: ChainState) -> tuple[list[ChainState], tu
         away = _away(states[-1].load, step)
         path = follow_loads(readings.loaded, states[-1], [away], jumps=True)
         said += _jumps(readings, path)
-        pressing = [each for each in path.steps[1:] if readings.presses(each)]
+        pressing = [each for each in path.steps[1:] if presses(readings.scene, each)]
         if path.ending is None and pressing and pressing[-1] is path.last:
             states.append(path.last)
         elif path.ending or path.jumps:
@@ -70,7 +73,7 @@ def _jumps(readings: Readings, path: Path) -> list[str]:
     for each in (*path.jumps, *filter(None, [path.ending])):
         what = "snaps away, and it is not known to where"
         if each.beyond is not None:
-            stays = readings.presses(each.beyond)
+            stays = presses(readings.scene, each.beyond)
             what = "jumps to another equilibrium on its support" if stays else "snaps off it"
         where = f"{readings.distance(each.load):.3g} mm"
         said.append(f"as its support moves away, at a distance of {where}, the finger {what}.")

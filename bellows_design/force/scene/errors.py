@@ -59,7 +59,7 @@ def force_error(
     loaded: LoadedChain, state: ChainState, force: Force, unknown: Uncertainty
 ) -> ForceError:
     """Estimated errors of ``force`` in an equilibrium, percent of it; zeros where it is none."""
-    value = force(state)
+    value = float(force(state))
     if not value or unknown == Uncertainty():
         return ForceError()
     everywhere, root, tip, shear = _dependences(loaded, state, force)
@@ -86,7 +86,7 @@ def _dependences(
         for turns in (every, first, last)
     ]
     stiffer = force(_again(loaded, state, 0 * every, shear=1 - SMALL_SHEAR)) - value
-    return by_turn[0], by_turn[1], by_turn[2], stiffer / SMALL_SHEAR
+    return float(by_turn[0]), float(by_turn[1]), float(by_turn[2]), float(stiffer / SMALL_SHEAR)
 
 
 def _again(loaded: LoadedChain, state: ChainState, turns: Reals, shear: float = 1.0) -> ChainState:

@@ -9,7 +9,7 @@ from bellows_design.design.scenes.grip import Grip
 from bellows_design.force.chain import grip
 from bellows_design.force.chain.finger.weight import GRAVITY
 from bellows_design.force.chain.loaded_chain import LoadedChain
-from bellows_design.force.chain.path import Path
+from bellows_design.force.chain.path import Ending, Path
 from bellows_design.force.chain.state import ChainState
 from bellows_design.force.finger_law import Facts
 from bellows_design.force.scene.errors import force_error
@@ -109,7 +109,7 @@ def _of_the_pull(found: grip.Grip) -> Iterator[str]:
         )
 
 
-def _way(found: grip.Grip, ending: grip.Ending) -> float:
+def _way(found: grip.Grip, ending: Ending) -> float:
     """Where a branch ended along the pull, mm."""
     return float(
         sum(a * b for a, b in zip(ending.load.object_shift, found.pull.direction, strict=True))

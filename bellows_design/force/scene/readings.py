@@ -11,35 +11,14 @@ from bellows_design.design.scenes.blocked import Blocked
 from bellows_design.design.scenes.grip import Grip
 from bellows_design.design.scenes.scene import Scene
 from bellows_design.force.chain.loaded_chain import LoadedChain
-from bellows_design.force.chain.state import ChainState, ContactPoint
+from bellows_design.force.chain.state import ChainState
 from bellows_design.force.chain.surroundings import LoadPoint
 from bellows_design.force.finger_law import FingerLaw
 from bellows_design.force.result import ForceReading, Point
 from bellows_design.force.scene.dead_volume import dead_volume
 from bellows_design.force.scene.errors import force_error
+from bellows_design.force.scene.exerted import exerted, force_of
 from bellows_design.force.scene.gripping import Gripping, gripping
-
-Wrench = tuple[float, float, float]
-"""x and z of a force (N) and a moment about y (N mm), positive from +x towards -z."""
-
-
-def exerted(state: ChainState) -> Wrench:
-    """Force of the finger on what is around it, and the moment on it about the tip's lower edge.
-
-    Zero where nothing blocks the finger. Of a grip that of one finger.
-    """
-    x, z = state.contact_force
-    held_x, held_z, held_moment = state.held_force
-    moment = held_moment + sum(_moment(point, state.tip) for point in state.contacts)
-    return 0.0 - (x + held_x), 0.0 - (z + held_z), moment
-
-
-def force_of(scene: Scene, state: ChainState) -> float:
-    """The one force of a scene, N: of a grip what presses normal to the object, else the whole."""
-    if isinstance(scene, Grip):
-        return sum(point.normal_force for point in state.contacts)
-    x, z, _ = exerted(state)
-    return math.hypot(x, z)
 
 
 @dataclass(frozen=True)
@@ -82,18 +61,6 @@ class Readings:
             largest_payload_error_percent=None if grip is None else grip.payload_error_percent,
             warnings=() if grip is None else grip.warnings,
         )
-
-    def presses(self, state: ChainState) -> bool:
-        """Whether the finger presses on what blocks it; on a load cell only with its tip.
-
-        Turned by more than half a turn it would lie on the plate with other points.
-        """
-        return force_of(self.scene, state) > 0 and not self.past(state)
-
-    def past(self, state: ChainState) -> bool:
-        """Whether a tip on a load cell has turned by more than half a turn."""
-        load_cell = isinstance(self.scene, Blocked) and self.scene.support == "load_cell"
-        return load_cell and state.held_force[1] > 0 and state.tip[2] > math.pi
 
     def distance(self, load: LoadPoint) -> float:
         """From the lower side at rest down to what blocks the finger, mm; 0 where nothing does."""
@@ -142,9 +109,3 @@ class Readings:
     def _touched(self, state: ChainState) -> tuple[Point, ...]:
         points = tuple(point.position for point in state.contacts)
         return (*points, state.tip[:2]) if any(state.held_force) else points
-
-
-def _moment(point: ContactPoint, tip: Wrench) -> float:
-    """Moment of a contact's force about the tip's lower edge, N mm."""
-    arm_x, arm_z = point.position[0] - tip[0], point.position[1] - tip[1]
-    return point.force[0] * arm_z - point.force[1] * arm_x

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -15,6 +16,7 @@ from bellows_design.force.chain.loaded_chain import LoadedChain
 from bellows_design.force.chain.path import Path, follow
 from bellows_design.force.chain.state import ChainState
 from bellows_design.force.finger_law import FingerLaw
+from bellows_design.force.scene.support import until_lost
 from bellows_design.force.scene.surroundings import surroundings_of, weights_of
 from bellows_design.geometry.ends import tip_stub
 
@@ -51,23 +53,38 @@ class Solved:
         chain = chain_of(design, law)
         surroundings = surroundings_of(scene, design.finger_length)
         path = follow(chain, surroundings, _with_steps(pressures), jumps=True)
+        path = until_lost(scene, path)
         loaded = LoadedChain.of(chain, surroundings)
         seconds = time.perf_counter() - started
         return cls(design, scene, tuple(pressures), law, loaded, path, seconds)
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """A sentence for each jump, where there are several equilibria, and for extrapolation."""
+        """Sentences on jumps, where there are several equilibria, on coils and extrapolation."""
         jumps = tuple(
-            f"{jump.sentence.rstrip('.')}, and was followed to where it comes to rest."
+            f"{jump.sentence.rstrip('.')}; the finger was followed to where it comes to rest."
             for jump in self.path.jumps
         )
+        return (*self.law.warnings, *jumps, *self._coiled, *self._extrapolated)
+
+    @property
+    def _coiled(self) -> tuple[str, ...]:
+        """Where more than a full turn meets an object, or itself."""
+        first = next((each for each in self.path.steps if abs(each.tip[2]) > 2 * math.pi), None)
+        if first is None:
+            return ()
+        return (
+            f"from {first.pressure:.3g} MPa on the finger coils by more than a full turn: it runs "
+            "through itself where a real one meets itself.",
+        )
+
+    @property
+    def _extrapolated(self) -> tuple[str, ...]:
+        """Where the law does not reach."""
         if not self.beyond:
-            return (*self.law.warnings, *jumps)
+            return ()
         first = self.beyond[0].pressure
         return (
-            *self.law.warnings,
-            *jumps,
             f"from {first:.3g} MPa on sections bear moments beyond those that the law was computed "
             "for: it is extrapolated there.",
         )

@@ -148,19 +148,21 @@ def test_an_object_that_slips_is_said_to_be_kept_in_its_place() -> None:
     assert any("slips out of the grip" in each for each in found.warnings)
 
 
-def test_the_payload_is_as_uncertain_as_the_law_that_it_is_found_by() -> None:
-    part = 1e-4
+@pytest.mark.parametrize(("friction", "most"), [(0.0, 1.01), (0.5, 3.0)])
+def test_the_payload_is_as_uncertain_as_the_law_that_it_is_found_by(
+    friction: float, most: float
+) -> None:
+    """With friction a finger that closes further slides further, which the estimate does not know:
+    it is then too large."""
+    part, light = 1e-3, Grip(size=30, mass_g=5, distance=18, place=38, friction=friction)
     known = linear_law(rotations=Uncertainty(mesh=part * TURN * 0.1))
-    found = force_curve(DESIGN, GRIP, (0.1,), known).last
-    more = replace(
-        known,
-        piece=replace(known.piece, motion_by_pressure=(1 + part) * np.array([TURN, 0.0, 0.0])),
-    )
-    again = force_curve(DESIGN, GRIP, (0.1,), more).last
+    more = (1 + part) * np.array([TURN, 0.0, 0.0])
+    other = replace(known, piece=replace(known.piece, motion_by_pressure=more))  # type: ignore[type-var]
+    found, again = (force_curve(DESIGN, light, (0.1,), law).last for law in (known, other))
     assert found.largest_payload_g is not None and again.largest_payload_g is not None
     assert found.largest_payload_error_percent is not None
     changed = 100 * abs(again.largest_payload_g / found.largest_payload_g - 1)
-    assert found.largest_payload_error_percent == pytest.approx(changed, rel=0.2)
+    assert 0.99 * changed < found.largest_payload_error_percent < most * changed
 
 
 def test_a_finger_that_touches_its_neighbours_says_so() -> None:
