@@ -23,12 +23,23 @@ if TYPE_CHECKING:
 def key_of_law(design: Design, tolerance: float, budget: Budget) -> Key:
     """What the law of a design is found by."""
     asked = {
-        "design": design.digest,
+        "design": design.as_evaluated.digest,
         "valid_strain": design.material.valid_strain,
         "tolerance": float(tolerance),
         "budget": {name: float(limit) for name, limit in asdict(budget).items()},
     }
     return Key(plain(asked), present_surroundings())
+
+
+def key_of_extension(
+    key: Key, moments: tuple[float, float], pressures: tuple[float, float] | None
+) -> Key:
+    """What a law is found by that is the one of ``key``, extended to these moments.
+
+    By itself, so that what a scene is told does not depend on scenes that were asked for before.
+    """
+    asked = {"law": key.asked, "moments": moments, "pressures": pressures}
+    return Key(plain(asked), key.surroundings)
 
 
 def find(store: Store | None, key: Key, design: Design) -> CellLaw | None:
