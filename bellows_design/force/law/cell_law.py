@@ -15,9 +15,9 @@ from bellows_design.design.design import Design
 from bellows_design.errors import BellowsError
 from bellows_design.force.law.computation.building import Builder, aim_of
 from bellows_design.force.law.computation.continuation import Continuation, Solved
+from bellows_design.force.law.computation.ends import end_pieces, ends_of
 from bellows_design.force.law.computation.meshes import Correction
 from bellows_design.force.law.computation.short_actuator import Sections
-from bellows_design.force.law.computation.ends import end_pieces, ends_of
 from bellows_design.force.law.ends import EndPiece
 from bellows_design.force.law.errors import LawError, ends_error
 from bellows_design.force.law.half_bubble import CellLaw, Effort

@@ -16,20 +16,22 @@ from functools import cached_property, lru_cache
 import numpy as np
 
 from bellows_design.errors import BellowsError
-from bellows_design.force.law.interpolation.derivatives import curvatures, slopes
+from bellows_design.force.law.interpolation.derivatives import curvatures, monotone_slopes
 from bellows_design.force.law.interpolation.polynomials import hermite
-from bellows_design.force.law.interpolation.row_fields import BENT
 from bellows_design.force.law.interpolation.table import KEPT_PRESSURES, ROUNDING, Curves
 from bellows_design.force.law.interpolation.tabulated import corrected, response_of
 from bellows_design.force.section_law import SectionResponse
 from solver.arrays import Reals
+
+BENT = np.array([[1.0, 0.0, 0.0], [1.0, 0.0, 0.0]])
+"""Beyond its moments the energy and its derivative by the pressure go on as parabolas."""
 
 
 @dataclass(frozen=True, eq=False)
 class EndPiece:
     """A ``SectionLaw`` between the middle of the outermost bubble and its stub, which it turns.
 
-    r pressures, the first one 0, and m moments, one of them 0; full width.
+    r pressures, one of them 0, and m moments, one of them 0; full width.
 
     Attributes:
         length: half of the bubbles' pitch, mm.
@@ -75,8 +77,13 @@ class EndPiece:
         Raises ``BellowsError`` for a pressure beyond those known.
         """
         found = response_of(self._curves_at(self._checked(pressure)), loads)
-        rest, shear = float(self.volumes[0]), self.shear_compliance
-        return corrected(found, pressure, loads[:, 2], self.softening, rest, shear)
+        rest, slip = self.volume_at_rest, self.shear_compliance
+        return corrected(found, pressure, loads[:, 2], self.softening, rest, slip)
+
+    @property
+    def volume_at_rest(self) -> float:
+        """Air inside, mm^3."""
+        return float(self.volumes[np.abs(self.pressures).argmin()])
 
     def reach(self, pressure: float) -> tuple[float, float]:
         """Moments (N mm) up to which it is known, between those of the rows beside."""
@@ -139,7 +146,7 @@ class EndPiece:
         for motion, by in zip(self.motion, self.compliance, strict=True):
             axial = by[:, 1, 1]
             bend = curvatures(nodes, motion[:, 1], by[:, 0, 1])
-            axial_slope = slopes(nodes, axial)
+            axial_slope = monotone_slopes(nodes, axial)
             more = (bend, axial_slope, curvatures(nodes, axial, axial_slope))
             columns.append(np.stack([by[:, 0, 0], by[:, 0, 1], axial, *more], axis=1))
         return PchipInterpolator(self.pressures, np.array(columns))

@@ -79,9 +79,7 @@ class FreeHalf:
 def _as_ends(solved: Solved) -> SolvedEnds:
     point = solved.point
     by = point.derivatives
-    end = EndPoint(
-        np.array([point.rotation, point.extension]), by[:2, :2], by[:2, 2], point.volume
-    )
+    end = EndPoint(np.array([point.rotation, point.extension]), by[:2, :2], by[:2, 2], point.volume)
     return SolvedEnds(point.pressure, point.moment, (end, end), solved.solution, point)
 
 
