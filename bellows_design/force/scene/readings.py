@@ -38,7 +38,7 @@ class Readings:
     def of(self, state: ChainState) -> ForceReading:
         """The record of ``state``; of a grip once the object's weight pulls, if it is held."""
         state, holds, payload = self._gripping(state)
-        facts, loads = self.law.facts, state.loads[self.loaded.chain.lengths > 0]
+        facts, loads = self.law.facts, state.loads
         x, z, moment = exerted(state)
         force = partial(force_of, self.scene)
         unknown = facts.unknown(state.pressure, loads)
