@@ -126,6 +126,11 @@ class Design(Parameters):
             table["material"] = self.material.name
         return tomli_w.dumps(table)
 
+    @property
+    def finger_length(self) -> float:
+        """x of the finger's end, mm: the fingertip's if it has one, else the tendon's."""
+        return self.bellows.length + (0.0 if self.fingertip is None else self.fingertip.length)
+
     def __hash__(self) -> int:
         return hash((self.name, self.digest))  # a table of scenes has no hash of its own
 
@@ -206,7 +211,7 @@ class Design(Parameters):
     @model_validator(mode="after")
     def _scenes_are_known(self) -> Self:
         for name, scene in self.scenes.items():
-            check_fits(scene, f"scenes.{name}", self.bellows.length)
+            check_fits(scene, f"scenes.{name}", self.finger_length)
         known = {**BUILT_IN, **self.scenes}
         for name in self.limits.scenes:
             require(

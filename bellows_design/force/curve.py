@@ -21,7 +21,8 @@ from bellows_design.force.finger_law import FingerLaw
 from bellows_design.force.law_of_design import solved_with_its_law
 from bellows_design.force.result import ForceCurve, Seconds
 from bellows_design.force.scene.distances import Distances, moved_away
-from bellows_design.force.scene.readings import Readings, force_of
+from bellows_design.force.scene.exerted import force_of
+from bellows_design.force.scene.readings import Readings
 from bellows_design.force.scene.solved import Solved
 from bellows_design.progress import SILENCE, Progress
 
@@ -78,7 +79,7 @@ def _curve(solved: Solved, name: str, flow: float, by_distance: bool) -> ForceCu
     ending, last = solved.path.ending, solved.path.last
     if ending is None:
         _require_touched(readings, last)
-    away = Distances()
+    away, told = Distances(), _drawn_in(readings, last)
     if by_distance and ending is None:
         away = moved_away(readings, last)
     seconds = solved.seconds + time.perf_counter() - started
@@ -94,7 +95,7 @@ def _curve(solved: Solved, name: str, flow: float, by_distance: bool) -> ForceCu
         pneumatic_work_mj=_pneumatic_work(solved.path),
         tip_work_mj=away.work,
         air=_air(readings, solved.path, flow),
-        warnings=(*solved.warnings, *away.warnings),
+        warnings=(*solved.warnings, *told, *away.warnings),
         seconds=Seconds(solved.law.seconds, seconds),
         from_cache=solved.law.from_cache,
     )
@@ -116,6 +117,17 @@ def _require_touched(readings: Readings, state: ChainState) -> None:
     raise DesignError(
         f"the {what} at distance = {scene.distance:g} mm is not reached {at}: the free {point} "
         f"reaches {-readings.lowest(state):.3g} mm below its place at rest."
+    )
+
+
+def _drawn_in(readings: Readings, state: ChainState) -> tuple[str, ...]:
+    """What is to be said where an object does not stay in its grip by its own weight."""
+    force = readings.drawn_in(state)
+    if force <= 0:
+        return ()
+    return (
+        f"the closed fingers draw the object towards their roots, each by {force:.3g} N more than "
+        "its weight: readings are those of an object that is kept in its place.",
     )
 
 

@@ -57,7 +57,7 @@ def force_of(options: ForceOptions) -> Answer:
     pressures = () if options.pressure is None else parse_pressures(options.pressure)
     design = options.design.load(pressures[-1] if pressures else None)
     name, scene = named_scene(options.scene, design.scenes)
-    check_fits(scene, f"scene {name}", design.bellows.length)
+    check_fits(scene, f"scene {name}", design.finger_length)
     options.require()
     budget = options.limits.budget()
     from bellows_design.force.air import FLOW

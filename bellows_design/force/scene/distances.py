@@ -8,11 +8,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from bellows_design.design.scenes.blocked import Blocked
-from bellows_design.force.chain.path import follow_loads
+from bellows_design.force.chain.path import Path, follow_loads
 from bellows_design.force.chain.state import ChainState
 from bellows_design.force.chain.surroundings import LoadPoint
 from bellows_design.force.result import ForceReading
-from bellows_design.force.scene.readings import Readings, force_of
+from bellows_design.force.scene.exerted import force_of
+from bellows_design.force.scene.readings import Readings
+from bellows_design.force.scene.support import presses
 
 INTERVALS = 10
 """From the support's place to where the finger would leave it by its first stiffness."""
@@ -38,7 +40,7 @@ def moved_away(readings: Readings, state: ChainState) -> Distances:
     """
     scene = readings.scene
     supported = isinstance(scene, Blocked) and scene.support != "held"
-    if not supported or not force_of(scene, state) > 0:
+    if not supported or not presses(scene, state):
         return Distances()
     states, warnings = _states(readings, state)
     found = tuple(readings.of(each) for each in states)
@@ -49,24 +51,37 @@ def moved_away(readings: Readings, state: ChainState) -> Distances:
 
 def _states(readings: Readings, start: ChainState) -> tuple[list[ChainState], tuple[str, ...]]:
     """Equilibria from ``start`` to where the finger leaves its support, or finds none."""
-    states, step = [start], _step(readings, start)
+    states, said, step = [start], list[str](), _step(readings, start)
     for _ in range(MOST_STEPS):
-        path = follow_loads(readings.loaded, states[-1], [_away(states[-1].load, step)])
-        if path.ending is not None:
-            where = readings.distance(path.last)
-            more = path.steps[-1:] if len(path.steps) > 1 else ()
-            return [*states, *more], (
-                f"from a distance of {where:.3g} mm on the tip snaps off its support.",
-            )
-        if not force_of(readings.scene, path.last) > 0:
-            return [*states, _just_left(readings, path.last)], ()
-        states.append(path.last)
-    return states, ()
+        away = _away(states[-1].load, step)
+        path = follow_loads(readings.loaded, states[-1], [away], jumps=True)
+        said += _jumps(readings, path)
+        pressing = [each for each in path.steps[1:] if presses(readings.scene, each)]
+        if path.ending is None and pressing and pressing[-1] is path.last:
+            states.append(path.last)
+        elif path.ending or path.jumps:
+            return [*states, *pressing[-1:]], tuple(said)
+        else:
+            return [*states, _just_left(readings, path.last)], tuple(said)
+    return states, tuple(said)
+
+
+def _jumps(readings: Readings, path: Path) -> list[str]:
+    """A sentence for each branch that ended."""
+    said = []
+    for each in (*path.jumps, *filter(None, [path.ending])):
+        what = "snaps away, and it is not known to where"
+        if each.beyond is not None:
+            stays = presses(readings.scene, each.beyond)
+            what = "jumps to another equilibrium on its support" if stays else "snaps off it"
+        where = f"{readings.distance(each.load):.3g} mm"
+        said.append(f"as its support moves away, at a distance of {where}, the finger {what}.")
+    return said
 
 
 def _step(readings: Readings, state: ChainState) -> float:
     """Of the support, mm."""
-    length = readings.design.bellows.length
+    length = readings.design.finger_length
     stiffness = readings.tip_stiffness(state) or math.nan
     wanted = force_of(readings.scene, state) / stiffness / INTERVALS
     if not math.isfinite(wanted):
@@ -86,5 +101,5 @@ def _away(load: LoadPoint, step: float) -> LoadPoint:
 
 def _just_left(readings: Readings, state: ChainState) -> ChainState:
     """The free finger with its support where it would just touch it."""
-    further = readings.distance(state) + readings.lowest(state)
+    further = readings.distance(state.load) + readings.lowest(state)
     return replace(state, load=_away(state.load, -further))

@@ -20,8 +20,9 @@ from bellows_design.force.result import ForceError
 from bellows_design.force.section_law import SectionLaw, SectionResponse
 from solver.arrays import Reals
 
-SMALL_TURN = 1e-4
-"""rad, of one piece: by which the force's dependence is found."""
+SMALL_TURN, SMALL_SHEAR = 1e-5, 1e-4
+"""rad, of one piece, and fraction of shear's compliance: by which the force's dependence is found.
+Objects are so stiff that larger ones would show the curvature of the chain's motion instead."""
 
 
 @dataclass(frozen=True)
@@ -76,7 +77,7 @@ def _dependences(
     loaded: LoadedChain, state: ChainState, force: Force
 ) -> tuple[float, float, float, float]:
     """Derivatives of the force by rotations (N/rad) of all pieces, the first and the last one, and
-    what it loses without shear (N)."""
+    by the shear compliance, relative to itself (N)."""
     count, value = len(loaded.chain.pieces), force(state)
     every = np.ones(count)
     first, last = np.eye(count)[0], np.eye(count)[-1]
@@ -84,8 +85,8 @@ def _dependences(
         (force(_again(loaded, state, turns * SMALL_TURN)) - value) / SMALL_TURN
         for turns in (every, first, last)
     ]
-    rigid = force(_again(loaded, state, 0 * every, shear=0.0)) - value
-    return by_turn[0], by_turn[1], by_turn[2], rigid
+    stiffer = force(_again(loaded, state, 0 * every, shear=1 - SMALL_SHEAR)) - value
+    return by_turn[0], by_turn[1], by_turn[2], stiffer / SMALL_SHEAR
 
 
 def _again(loaded: LoadedChain, state: ChainState, turns: Reals, shear: float = 1.0) -> ChainState:

@@ -14,36 +14,16 @@ from bellows_design.force.chain.finger.weight import GRAVITY
 from bellows_design.force.chain.grip import Pull, pulled
 from bellows_design.force.chain.loaded_chain import LoadedChain
 from bellows_design.force.chain.path import Path
-from bellows_design.force.chain.state import ChainState, ContactPoint
+from bellows_design.force.chain.state import ChainState
+from bellows_design.force.chain.surroundings import LoadPoint
 from bellows_design.force.finger_law import FingerLaw
 from bellows_design.force.result import ForceReading, Point
 from bellows_design.force.scene.dead_volume import dead_volume
 from bellows_design.force.scene.errors import force_error
+from bellows_design.force.scene.exerted import exerted, force_of
 
 PULL = Pull(step=0.5)
 """How an object is pulled: the largest force that is met counts."""
-
-Wrench = tuple[float, float, float]
-"""x and z of a force (N) and a moment about y (N mm), positive from +x towards -z."""
-
-
-def exerted(state: ChainState) -> Wrench:
-    """Force of the finger on what is around it, and the moment on it about the tip's lower edge.
-
-    Zero where nothing blocks the finger. Of a grip that of one finger.
-    """
-    x, z = state.contact_force
-    held_x, held_z, held_moment = state.held_force
-    moment = held_moment + sum(_moment(point, state.tip) for point in state.contacts)
-    return 0.0 - (x + held_x), 0.0 - (z + held_z), moment
-
-
-def force_of(scene: Scene, state: ChainState) -> float:
-    """The one force of a scene, N: of a grip what presses normal to the object, else the whole."""
-    if isinstance(scene, Grip):
-        return sum(point.normal_force for point in state.contacts)
-    x, z, _ = exerted(state)
-    return math.hypot(x, z)
 
 
 @dataclass(frozen=True)
@@ -58,7 +38,7 @@ class Readings:
     def of(self, state: ChainState) -> ForceReading:
         """The record of ``state``; of a grip once the object's weight pulls, if it is held."""
         state, holds, payload = self._gripping(state)
-        facts, loads = self.law.facts, state.loads[self.loaded.chain.lengths > 0]
+        facts, loads = self.law.facts, state.loads
         x, z, moment = exerted(state)
         force = partial(force_of, self.scene)
         unknown = facts.unknown(state.pressure, loads)
@@ -66,7 +46,7 @@ class Readings:
         stress, stress_error = facts.stress(state.pressure, loads) or (None, None)
         return ForceReading(
             pressure_mpa=state.pressure,
-            distance_mm=self.distance(state) if isinstance(self.scene, Blocked) else None,
+            distance_mm=self.distance(state.load) if isinstance(self.scene, Blocked) else None,
             force_n=force(state),
             components_n=(x, z),
             moment_n_mm=moment,
@@ -84,12 +64,12 @@ class Readings:
             largest_payload_g=payload,
         )
 
-    def distance(self, state: ChainState) -> float:
+    def distance(self, load: LoadPoint) -> float:
         """From the lower side at rest down to what blocks the finger, mm; 0 where nothing does."""
         if not isinstance(self.scene, Blocked):
             return 0.0
         wall = self.scene.support == "wall"
-        shift = state.load.object_shift if wall else state.load.hold_shift
+        shift = load.object_shift if wall else load.hold_shift
         return self.scene.distance - shift[1]
 
     def lowest(self, state: ChainState) -> float:
@@ -117,26 +97,36 @@ class Readings:
         return state.tip_stiffness if blocked and not state.contacts else None
 
     def _gripping(self, state: ChainState) -> tuple[ChainState, bool | None, float | None]:
-        """The state under the object's weight, whether it is held, and the largest mass (g)."""
+        """The state under the object's weight, whether it is held, and the largest mass (g).
+
+        Where the closed finger pushes the object towards its root by more than the weight, the
+        object keeps its place.
+        """
         if not isinstance(self.scene, Grip):
             return state, None, None
         fingers, mass = self.scene.fingers, self.scene.mass_g
         found = pulled(self.loaded, Path((state,), (state,), None), PULL)
-        held = found.under(1e-3 * GRAVITY * mass / fingers)
+        hanging = None if self.drawn_in(state) > 0 else found.under(_weight(self.scene))
         grams = 1e3 * fingers * found.largest_force / GRAVITY
-        return held or state, grams >= mass, grams
+        return hanging or state, grams >= mass, grams
+
+    def drawn_in(self, state: ChainState) -> float:
+        """What a closed finger pushes an object towards its root with, beyond its weight, N."""
+        if not isinstance(self.scene, Grip):
+            return 0.0
+        return PULL.force(state) - _weight(self.scene)
 
     def _shape(self, state: ChainState) -> tuple[Point, ...]:
         """The lower side, about every mm."""
         positions = self.loaded.contacts.positions(state.frames[1:-1])
-        return tuple((float(x), float(z)) for x, z in [*positions[:-1:2], positions[-1]])
+        every = max(1, round(1 / self.loaded.widths[0]))
+        return tuple((float(x), float(z)) for x, z in [*positions[:-1:every], positions[-1]])
 
     def _touched(self, state: ChainState) -> tuple[Point, ...]:
         points = tuple(point.position for point in state.contacts)
         return (*points, state.tip[:2]) if any(state.held_force) else points
 
 
-def _moment(point: ContactPoint, tip: Wrench) -> float:
-    """Moment of a contact's force about the tip's lower edge, N mm."""
-    arm_x, arm_z = point.position[0] - tip[0], point.position[1] - tip[1]
-    return point.force[0] * arm_z - point.force[1] * arm_x
+def _weight(scene: Grip) -> float:
+    """Of the object, on every finger, N."""
+    return 1e-3 * GRAVITY * scene.mass_g / scene.fingers

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -15,7 +16,9 @@ from bellows_design.force.chain.loaded_chain import LoadedChain
 from bellows_design.force.chain.path import Path, follow
 from bellows_design.force.chain.state import ChainState
 from bellows_design.force.finger_law import FingerLaw
+from bellows_design.force.scene.support import until_lost
 from bellows_design.force.scene.surroundings import surroundings_of, weights_of
+from bellows_design.geometry.ends import tip_stub
 
 STROKE_STEPS = 16
 """At least so many steps of pressure make a stroke: its work is a sum over them."""
@@ -48,25 +51,40 @@ class Solved:
         """Follow the path from rest to the last pressure, past jumps to where it comes to rest."""
         started = time.perf_counter()
         chain = chain_of(design, law)
-        surroundings = surroundings_of(scene, design.bellows)
+        surroundings = surroundings_of(scene, design.finger_length)
         path = follow(chain, surroundings, _with_steps(pressures), jumps=True)
+        path = until_lost(scene, path)
         loaded = LoadedChain.of(chain, surroundings)
         seconds = time.perf_counter() - started
         return cls(design, scene, tuple(pressures), law, loaded, path, seconds)
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """A sentence for each jump, where there are several equilibria, and for extrapolation."""
+        """Sentences on jumps, where there are several equilibria, on coils and extrapolation."""
         jumps = tuple(
-            f"{jump.sentence.rstrip('.')}, and was followed to where it comes to rest."
+            f"{jump.sentence.rstrip('.')}; the finger was followed to where it comes to rest."
             for jump in self.path.jumps
         )
+        return (*self.law.warnings, *jumps, *self._coiled, *self._extrapolated)
+
+    @property
+    def _coiled(self) -> tuple[str, ...]:
+        """Where more than a full turn meets an object, or itself."""
+        first = next((each for each in self.path.steps if abs(each.tip[2]) > 2 * math.pi), None)
+        if first is None:
+            return ()
+        return (
+            f"from {first.pressure:.3g} MPa on the finger coils by more than a full turn: it runs "
+            "through itself where a real one meets itself.",
+        )
+
+    @property
+    def _extrapolated(self) -> tuple[str, ...]:
+        """Where the law does not reach."""
         if not self.beyond:
-            return (*self.law.warnings, *jumps)
+            return ()
         first = self.beyond[0].pressure
         return (
-            *self.law.warnings,
-            *jumps,
             f"from {first:.3g} MPa on sections bear moments beyond those that the law was computed "
             "for: it is extrapolated there.",
         )
@@ -74,11 +92,10 @@ class Solved:
     @property
     def beyond(self) -> tuple[ChainState, ...]:
         """States of the path for whose moments the law was not computed."""
-        halves = self.loaded.chain.lengths > 0
         return tuple(
             state
             for state in self.path.steps
-            if not self.law.facts.within(state.pressure, state.loads[halves])
+            if not self.law.facts.within(state.pressure, state.loads)
         )
 
     @property
@@ -89,21 +106,12 @@ class Solved:
 
 
 def chain_of(design: Design, law: FingerLaw) -> Chain:
-    """The finger of ``design`` with its weights."""
+    """The finger of ``design`` with its weights and its fingertip."""
+    stub = tip_stub(design)
     chain = Chain.of(
-        design.bellows,
-        law.piece,
-        root_hinge=law.root_hinge,
-        tip_hinge=law.tip_hinge,
-        weights=weights_of(design),
+        design.bellows, law.piece, root=law.root, tip=law.tip, weights=weights_of(design)
     )
-    if law.outer is None:
-        return chain
-    halves = np.flatnonzero(chain.lengths > 0)
-    pieces = list(chain.pieces)
-    for number in (halves[0], halves[-1]):
-        pieces[number] = replace(pieces[number], law=law.outer)
-    return replace(chain, pieces=tuple(pieces))
+    return replace(chain, tip_length=stub.length, tip_height=stub.height)
 
 
 def _with_steps(pressures: Sequence[float]) -> list[float]:

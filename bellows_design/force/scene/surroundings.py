@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from bellows_design.design.bellows_parameters import BellowsParameters
 from bellows_design.design.design import Design
 from bellows_design.design.scenes.blocked import Blocked
 from bellows_design.design.scenes.fields import Direction
@@ -23,13 +22,13 @@ CORNER = 0.2
 def weights_of(design: Design) -> Weights:
     """Weights of the finger's parts, with the density of the printer's filament."""
     filament = design.profile().filament
-    return Weights.of(design.bellows, DENSITY if filament is None else filament.density)
+    return Weights.of(design, DENSITY if filament is None else filament.density)
 
 
-def surroundings_of(scene: Scene, bellows: BellowsParameters) -> Surroundings:
-    """What acts on the finger in ``scene`` besides pressure."""
+def surroundings_of(scene: Scene, length: float) -> Surroundings:
+    """What acts on a finger of ``length`` mm in ``scene`` besides pressure."""
     if isinstance(scene, Payload):
-        place = bellows.length if scene.place is None else scene.place
+        place = length if scene.place is None else scene.place
         newtons = scene.mass_g * 1e-3 * GRAVITY
         force = (newtons * scene.gravity[0], newtons * scene.gravity[1])
         return Surroundings(
@@ -39,7 +38,7 @@ def surroundings_of(scene: Scene, bellows: BellowsParameters) -> Surroundings:
         # Hanging: the weight of finger and object pulls from root to tip.
         return Surroundings((_gripped(scene),), friction=scene.friction, gravity=(1.0, 0.0))
     if isinstance(scene, Blocked):
-        return _blocked(scene, bellows)
+        return _blocked(scene, length)
     return Surroundings(gravity=_direction(scene.gravity))
 
 
@@ -47,10 +46,10 @@ def _direction(gravity: Direction) -> Direction | None:
     return None if gravity == (0.0, 0.0) else gravity
 
 
-def _blocked(scene: Blocked, bellows: BellowsParameters) -> Surroundings:
+def _blocked(scene: Blocked, length: float) -> Surroundings:
     gravity = _direction(scene.gravity)
     if scene.support == "held":
-        return Surroundings(hold=Hold(bellows.length, 0.0, 0.0), gravity=gravity)
+        return Surroundings(hold=Hold(length, 0.0, 0.0), gravity=gravity)
     if scene.support == "load_cell":
         return Surroundings(hold=Hold.load_cell(-scene.distance), gravity=gravity)
     wall = Plane((0.0, -scene.distance), (0.0, 1.0))

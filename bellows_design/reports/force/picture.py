@@ -12,6 +12,8 @@ from bellows_design.reports.plots import COLOURS, one_axes
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+    from bellows_design.design.design import Design
+    from bellows_design.design.features.fingertip import Fingertip
     from bellows_design.force.result import ForceCurve, ForceReading
 
 OBJECT = "0.75"
@@ -19,7 +21,7 @@ OBJECT = "0.75"
 
 
 def draw_scene(found: ForceCurve, path: Path) -> None:
-    """The lower side at every pressure, objects, and arrows for what presses, as PNG.
+    """The lower side at every pressure, objects, and dots where they press, as PNG.
 
     Written completely or not at all. Raises ``DesignError`` without matplotlib.
     """
@@ -28,6 +30,7 @@ def draw_scene(found: ForceCurve, path: Path) -> None:
         count = len(found.curve)
         for number, reading in enumerate(found.curve):
             _shape(axes, reading, (number + 1) / count)
+            _pad(axes, found.design.fingertip, reading, (number + 1) / count)
         axes.set_aspect("equal", adjustable="datalim")
         axes.set(xlabel="x, mm", ylabel="z, mm")
         axes.grid(True, linewidth=0.4, alpha=0.4)
@@ -38,16 +41,48 @@ def _shape(axes: Axes, reading: ForceReading, strength: float) -> None:
     """The lower side, darker the higher the pressure; dots where objects press."""
     line = tuple(zip(*reading.shape, strict=True))
     axes.plot(
-        *line, "-", color=COLOURS[0], alpha=0.25 + 0.75 * strength, linewidth=1.8,
+        *line, "-", color=COLOURS[0], alpha=_alpha(strength), linewidth=1.8,
         label=f"{reading.pressure_mpa:.3g} MPa",
     )  # fmt: skip
     if reading.touched:
         axes.plot(*zip(*reading.touched, strict=True), ".", color=COLOURS[1], markersize=7)
 
 
+def _alpha(strength: float) -> float:
+    return 0.25 + 0.75 * strength
+
+
+def _pad(axes: Axes, pad: Fingertip | None, reading: ForceReading, strength: float) -> None:
+    """The fingertip's side, whose lower edge ends the lower side."""
+    if pad is None:
+        return
+    from matplotlib.patches import Rectangle
+
+    degrees = 180 - reading.tip_angle_deg
+    axes.add_patch(
+        Rectangle(
+            reading.tip_position_mm, pad.length, -pad.thickness, angle=degrees,
+            color=COLOURS[0], alpha=0.3 * _alpha(strength), linewidth=0,
+        )
+    )  # fmt: skip
+
+
+def _mount(axes: Axes, design: Design) -> None:
+    """The side of the plate that is screwed down."""
+    mount, port = design.mount, design.port
+    if mount is None:
+        return
+    from matplotlib.patches import Rectangle
+
+    length = mount.length(port)
+    plate = Rectangle((-length, 0), length, mount.height(port), color=COLOURS[0], alpha=0.3)
+    axes.add_patch(plate)
+
+
 def _surroundings(axes: Axes, found: ForceCurve) -> None:
-    scene, length = found.content, found.design.bellows.length
+    scene, length = found.content, found.design.finger_length
     axes.plot([0, length], [0, 0], "--", color="0.5", linewidth=1, label="at rest")
+    _mount(axes, found.design)
     if isinstance(scene, Blocked) and scene.support != "held":
         axes.axhspan(-scene.distance - 0.02 * length, -scene.distance, color=OBJECT, zorder=0)
     if isinstance(scene, Grip):

@@ -43,13 +43,16 @@ def _over_pressure(axes: Axes, found: ForceCurve) -> None:
     axes.set(xlabel="pressure, MPa", ylabel="force, N")
 
 
+def _share(reading: ForceReading) -> float:
+    """The error by the force; where a tip snaps away it grows without bound."""
+    return 0.0 if reading.error is None else min(1.0, reading.error.total / 100)
+
+
 def _draw(axes: Axes, readings: Sequence[ForceReading], abscissa: Abscissa) -> None:
     """The curve, its band, and marks where neighbouring bubbles touch."""
     across = [abscissa(each) for each in readings]
     forces = [each.force_n for each in readings]
-    errors = [
-        each.force_n * (0.0 if each.error is None else each.error.total) / 100 for each in readings
-    ]
+    errors = [each.force_n * _share(each) for each in readings]
     low = [force - error for force, error in zip(forces, errors, strict=True)]
     high = [force + error for force, error in zip(forces, errors, strict=True)]
     axes.fill_between(
@@ -62,6 +65,6 @@ def _draw(axes: Axes, readings: Sequence[ForceReading], abscissa: Abscissa) -> N
             *zip(*touching, strict=True), "o", markersize=5, color=COLOURS[1],
             label="neighbouring bubbles touch",
         )  # fmt: skip
-    axes.set_ylim(0.0, ROOM * max(forces) or 1.0)  # errors grow without bound where a tip snaps
+    axes.set_ylim(0.0, ROOM * max(forces) or 1.0)
     axes.grid(True, linewidth=0.4, alpha=0.4)
     axes.legend()

@@ -36,7 +36,7 @@ def _results(found: ForceCurve) -> dict[str, str]:
     if last.error is not None:
         x, z = last.components_n
         rows |= {
-            "force": f"{last.force_n:.4g} N (± {last.error.total:.2g} % estimated)",
+            "force": f"{last.force_n:.4g} N (± {_percent(last.error.total)} % estimated)",
             "error by causes": _causes(last.error),
             "along (x, z)": f"({x:.3g}, {z:.3g}) N",
             "moment at the tip's lower edge": f"{last.moment_n_mm:.4g} N mm",
@@ -54,6 +54,11 @@ def _results(found: ForceCurve) -> dict[str, str]:
     }
 
 
+def _percent(error: float) -> str:
+    """Beyond the force itself an error to first order is no more than that."""
+    return f"{error:.2g}" if error < 100 else "over 100"
+
+
 def _causes(error: ForceError) -> str:
     parts = {
         "interpolation": error.interpolation,
@@ -62,7 +67,7 @@ def _causes(error: ForceError) -> str:
         "shear": error.shear,
         "neighbours": error.neighbours,
     }
-    return ", ".join(f"{name} {value:.2g} %" for name, value in parts.items())
+    return ", ".join(f"{name} {_percent(value)} %" for name, value in parts.items())
 
 
 def _stroke(found: ForceCurve) -> dict[str, str]:
@@ -115,7 +120,7 @@ def _cells(each: ForceReading) -> tuple[str, ...]:
     stress = each.max_von_mises_mpa
     return (
         f"{each.force_n:.3f}",
-        "" if each.error is None else f"{each.error.total:.1f}",
+        "" if each.error is None else _percent(each.error.total),
         f"{each.moment_n_mm:.1f}",
         f"{each.tip_angle_deg:.1f}",
         "" if stress is None else f"{stress:.3f}",

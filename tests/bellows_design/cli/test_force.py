@@ -44,6 +44,43 @@ def test_a_blocked_finger_answers_with_all_that_is_promised(bellows: Bellows) ->
     assert found["by_distance"][0]["force_n"] == pytest.approx(found["force_n"])
 
 
+KINDS = {
+    "lying": 'kind="free", gravity="down"',
+    "cell": 'kind="blocked", distance=4',
+    "kept": 'kind="blocked", support="held"',
+    "desk": 'kind="blocked", support="wall", distance=6, friction=0.5',
+    "load": 'kind="payload", mass_g=20',
+    "cup": 'kind="grip", fingers=3, object="sphere", size=30, mass_g=20, distance=18, place=38',
+}
+
+
+@pytest.mark.parametrize("name", KINDS)
+def test_every_kind_of_scene_has_an_answer(name: str, bellows: Bellows, tmp_path: Path) -> None:
+    files = [tmp_path / "shapes.png", tmp_path / "curves.png"]
+    setting = f"scenes={{{name}={{{KINDS[name]}}}}}"
+    status, out, err = bellows(
+        "force", "prototype_1", "--set", setting, "--scene", name, "--pressure", "0.05", "--json",
+        "--picture", str(files[0]), "--plot", str(files[1]),
+    )  # fmt: skip
+    found = json.loads(out)
+    assert status == 0, err
+    assert set(found) >= CONTRACT and found["stable"] and found["converged"]
+    pressed = name not in ("lying", "load")
+    assert (found["force_n"] > 0) == (found["error_estimate"] is not None) == pressed
+    assert (found["holds"] is not None) == (name == "cup")
+    assert bool(found["by_distance"]) == (name in ("cell", "desk"))
+    assert all(file.read_bytes().startswith(b"\x89PNG") for file in files)
+
+
+def test_a_finger_that_leaves_its_load_cell_has_status_3(bellows: Bellows) -> None:
+    """Under a pressure at which the tip turns by more than half a turn."""
+    status, out, _ = bellows(
+        "force", "prototype_1", "--set", "load.pressure=0.2", "--pressure", "0.1:0.2:0.1"
+    )
+    assert status == 3
+    assert "NOT REACHED: at 0.1" in out and "snaps off the load cell" in " ".join(out.split())
+
+
 def test_the_table_over_distance_is_printed_on_demand(bellows: Bellows) -> None:
     asked = ("force", "prototype_1", "--pressure", "0.05")
     status, out, _ = bellows(*asked)
@@ -78,6 +115,20 @@ def test_a_scene_may_be_a_file_or_a_setting(bellows: Bellows, tmp_path: Path) ->
     [
         (("--scene", "blockd"), "unknown scene “blockd”; did you mean blocked?"),
         (("--scene", "nowhere.toml"), "nowhere.toml"),
+        (("--scene", "."), "unknown scene “.”"),
+        (
+            ("--set", 'scenes={s={kind="squeeze"}}', "--scene", "s"),
+            "scenes.s.kind is “squeeze”; known are free, blocked, payload, grip.",
+        ),
+        (
+            (
+                "--set",
+                'scenes={g={kind="grip", size=5, mass_g=3, distance=80, place=45}}',
+                "--scene",
+                "g",
+            ),
+            "the cylinder of size = 5 mm at place = 45 mm is not touched at 0.1 MPa",
+        ),
         (("--flow", "-1"), "--flow is -1 L/min but must be 0.01 to 10000 L/min."),
         (("--pressure", "0.1:0.02:0.02"), "must go away from 0 MPa"),
         (
