@@ -163,10 +163,7 @@ class Design(Parameters):
         """
         unread = ("mount", "printer", "limits", "scenes")
         fields = type(self).model_fields
-        defaults = {
-            name: fields[name].get_default(call_default_factory=True)  # type: ignore[call-arg]
-            for name in unread
-        }
+        defaults = {name: fields[name].get_default(call_default_factory=True) for name in unread}
         return self.model_copy(update=defaults)
 
     @field_validator("name")

@@ -80,9 +80,8 @@ class FingerLaw:
 
     Attributes:
         piece: Of half a bubble.
-        outer: Of the first and the last half bubble, which have no neighbour; None for the same.
-        root_hinge: Of what the root adds, None for nothing.
-        tip_hinge: Of what the tip adds, likewise.
+        root: Of the first half bubble with what the root adds; None for the same.
+        tip: Of the last half bubble with what the tip adds, likewise.
         facts: What is known besides.
         warnings: Sentences on what makes it less reliable than it looks.
         complete: Whether it is as fine as asked for; else its time was over.
@@ -91,9 +90,8 @@ class FingerLaw:
     """
 
     piece: SectionLaw
-    outer: SectionLaw | None = None
-    root_hinge: SectionLaw | None = None
-    tip_hinge: SectionLaw | None = None
+    root: SectionLaw | None = None
+    tip: SectionLaw | None = None
     facts: Facts = field(default_factory=NoFacts)
     warnings: tuple[str, ...] = ()
     complete: bool = True

@@ -74,9 +74,8 @@ def finger_law(law: CellLaw) -> FingerLaw:
     """A finger's law from its cell's."""
     return FingerLaw(
         piece=law,
-        outer=law.without_contact,
-        root_hinge=law.end,
-        tip_hinge=law.end,
+        root=law.root,
+        tip=law.tip,
         facts=CellFacts(law),
         warnings=() if law.error.complete else (UNFINISHED,),
         complete=law.error.complete,

@@ -225,7 +225,7 @@ def chain_row(design: Design, case: Case) -> Row:
     """Follow the chain, and read."""
     began = time.perf_counter()
     law, length = law_of(design), design.bellows.length
-    chain = Chain.of(design.bellows, law, root_hinge=law.end, tip_hinge=law.end)
+    chain = Chain.of(design.bellows, law, root=law.root, tip=law.tip)
     path = follow(chain, _around(case, length), np.linspace(0, design.load.pressure, 6)[1:])
     state = path.last
     x, z, angle = state.tip

@@ -7,6 +7,8 @@ from dataclasses import replace
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from bellows_design.analysis.error_estimate import error_estimate
 from bellows_design.analysis.whole_actuator import ends_factor
 from bellows_design.budget import DEFAULT, Budget
@@ -14,8 +16,10 @@ from bellows_design.design.design import Design
 from bellows_design.errors import UnreachedError
 from bellows_design.force.law.computation.building import Builder, aim_of
 from bellows_design.force.law.computation.continuation import Continuation, Solved
+from bellows_design.force.law.computation.ends import end_pieces, ends_of
 from bellows_design.force.law.computation.meshes import Correction
-from bellows_design.force.law.ends import EndHinge, end_hinge
+from bellows_design.force.law.computation.short_actuator import Sections
+from bellows_design.force.law.ends import EndPiece
 from bellows_design.force.law.errors import LawError, ends_error
 from bellows_design.force.law.half_bubble import CellLaw, Effort
 from bellows_design.force.law.interpolation.tabulated import TabulatedLaw
@@ -165,20 +169,18 @@ def _made(computation: Computation, tolerance: float, progress: Progress) -> Cel
     on_mesh = TabulatedLaw(
         design.bellows.pitch / 2, builder.table, volume_at_rest=free[0].point.volume
     )
-    end = _end(computation, on_mesh, free)
-    corrected = replace(
-        on_mesh,
-        softening=correction.softening,
-        shear_compliance=cell.shear_compliance(free[-1]),
-    )
+    on_mesh = replace(on_mesh, shear_compliance=cell.shear_compliance(free[-1]))
+    root, tip = _ends(computation, on_mesh, free, correction.softening)
+    corrected = replace(on_mesh, softening=correction.softening)
     return CellLaw(
         design=design,
         tabulated=corrected,
-        end=end,
+        root=root,
+        tip=tip,
         free_rotation=correction.softening * free[-1].point.rotation,
         tolerance=tolerance,
         stress_factor=correction.stress_factor * ends_factor(computation),
-        error=_error(computation, builder, correction, end),
+        error=_error(computation, builder, correction, (root, tip)),
         mesh=mesh,
         effort=Effort(cell.factorizations, time.monotonic() - began),
     )
@@ -195,26 +197,45 @@ def _built(
     return builder
 
 
-def _end(computation: Computation, law: TabulatedLaw, free: list[Solved]) -> EndHinge:
-    """What either end adds, on meshes of the same size."""
-    apart = law.table.apart
+def _ends(
+    computation: Computation, law: TabulatedLaw, free: list[Solved], softening: float
+) -> tuple[EndPiece, EndPiece]:
+    """Both ends, on a mesh of the size of the law's; that is too stiff for them as for a cell."""
+    from bellows_design.analysis.models import shortened
+
     assert computation.ends is not None  # an evaluation by the unit cell has them
-    pressures = tuple(each.point.pressure for each in free)
-    return end_hinge(computation.ends.problem, law if apart is None else law.on(apart), pressures)
+    short = computation.ends.problem
+    with_stubs = short.moving_plane is None
+    bellows = shortened(computation.design).bellows
+    sections = Sections.of(short.mesh, bellows) if with_stubs else None
+    pressures = [each.point.pressure for each in free]
+    pieces = end_pieces(ends_of(short, sections), law, pressures)
+    both = sum(_turn(piece, free[-1].point.pressure) for piece in pieces)
+    factor = 1 + (softening - 1) * 2 * free[-1].point.rotation / both
+    root, tip = (replace(piece, softening=factor) for piece in pieces)
+    return root, tip
+
+
+def _turn(piece: EndPiece, pressure: float) -> float:
+    """Without section loads, rad."""
+    return float(piece.response(pressure, np.zeros((1, 3))).motion[0, 0])
 
 
 def _error(
-    computation: Computation, builder: Builder, correction: Correction, end: EndHinge
+    computation: Computation,
+    builder: Builder,
+    correction: Correction,
+    ends: tuple[EndPiece, EndPiece],
 ) -> LawError:
     assert computation.ends is not None
     pressure = computation.design.load.pressure
-    last = next(point for point in end.points if point.pressure == pressure)
-    free = builder.rows[pressure].nearest(0.0).point.rotation
+    free = correction.softening * builder.rows[pressure].nearest(0.0).point.rotation
+    added = sum(_turn(piece, pressure) for piece in ends) / 2 - free
     with_stubs = computation.ends.problem.moving_plane is None
     return LawError(
         interpolation=builder.worst,
         mesh=correction.error,
-        ends=ends_error(last, free, with_stubs),
+        ends=ends_error(added, free, with_stubs),
         stress_percent=error_estimate(computation).max_von_mises_percent,
         complete=builder.complete,
     )

@@ -1,180 +1,170 @@
-"""What the ends add: the outer halves of the first and the last bubble, and the stubs beside them.
+"""The outer half of the first or the last bubble with the stub beside it.
 
-From an actuator of one bubble: it turns by more or less than two half bubbles without neighbours,
-and gives way more or less to a moment on its tip. Half of the difference is taken as a hinge at
-each end; which part belongs to which end is not known.
+Its rotation and extension are known at pressures and moments on a grid. Rotation between moments is
+a cubic by values and compliances, between pressures by values and derivatives; all that is returned
+are derivatives of one energy,
+
+    G(p, M, N) = G(p, 0) + integral of the rotation by M + N e(p, M) + N^2 c(p, M) / 2.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
-from typing import TYPE_CHECKING
+from functools import cached_property, lru_cache
 
 import numpy as np
 
 from bellows_design.errors import BellowsError
-from bellows_design.force.law.interpolation.points import HALVES
-from bellows_design.force.section_law import SectionLaw, SectionResponse
+from bellows_design.force.law.interpolation.derivatives import curvatures, monotone_slopes
+from bellows_design.force.law.interpolation.polynomials import hermite
+from bellows_design.force.law.interpolation.table import KEPT_PRESSURES, ROUNDING, Curves
+from bellows_design.force.law.interpolation.tabulated import corrected, response_of
+from bellows_design.force.section_law import SectionResponse
 from solver.arrays import Reals
 
-if TYPE_CHECKING:
-    from scipy.interpolate import PPoly
-
-    from solver import Problem, Solution
-
-
-@dataclass(frozen=True)
-class EndPoint:
-    """An end without a moment.
-
-    Attributes:
-        pressure: MPa.
-        rotation: that it adds, rad.
-        compliance: that it adds, rad per N mm of the full width; it may be negative.
-        volume: that it adds, mm^3.
-    """
-
-    pressure: float
-    rotation: float
-    compliance: float
-    volume: float
+BENT = np.array([[1.0, 0.0, 0.0], [1.0, 0.0, 0.0]])
+"""Beyond its moments the energy and its derivative by the pressure go on as parabolas."""
 
 
 @dataclass(frozen=True, eq=False)
-class EndHinge:
-    """A ``SectionLaw`` of length zero: a hinge that turns with the pressure, and is elastic.
+class EndPiece:
+    """A ``SectionLaw`` between the middle of the outermost bubble and its stub, which it turns.
+
+    r pressures, one of them 0, and m moments, one of them 0; full width.
 
     Attributes:
-        points: by ascending pressure, at least two.
+        length: half of the bubbles' pitch, mm.
+        pressures: ascending, MPa.
+
+            *Shape:* (r,).
+        moments: ascending, N mm.
+
+            *Shape:* (m,).
+        motion: rotation (rad) and extension (mm) without forces.
+
+            *Shape:* (r, m, 2).
+        compliance: its derivatives by moment and axial force, symmetric and positive.
+
+            *Shape:* (r, m, 2, 2).
+        rate: its derivative by the pressure, per MPa.
+
+            *Shape:* (r, m, 2).
+        volumes: air inside without loads, mm^3.
+
+            *Shape:* (r,).
+        reaches: moments up to which each row was computed; beyond, its compliance is constant.
+
+            *Shape:* (r, 2).
+        softening: factor on all motion but slip: a coarse mesh is too stiff.
+        shear_compliance: slip by shear force, mm per N.
     """
 
-    points: tuple[EndPoint, ...]
-
-    @property
-    def length(self) -> float:
-        """A hinge has none."""
-        return 0.0
+    length: float
+    pressures: Reals
+    moments: Reals
+    motion: Reals
+    compliance: Reals
+    rate: Reals
+    volumes: Reals
+    reaches: Reals
+    softening: float = 1.0
+    shear_compliance: float = 0.0
 
     def response(self, pressure: float, loads: Reals) -> SectionResponse:
-        """The answer to ``pressure`` (MPa) and to section loads (k, 3); only moments count."""
-        moment, none = loads[:, 0], np.zeros(len(loads))
-        (turn, soft, volume), (turn_rate, soft_rate, _) = (
-            self._curves(pressure, order) for order in (0, 1)
-        )
-        compliance = np.zeros((len(loads), 3, 3))
-        compliance[:, 0, 0] = soft
-        rate = turn_rate + soft_rate * moment
-        return SectionResponse(
-            energy=self._work(pressure)[2] + turn * moment + soft * moment**2 / 2,
-            motion=np.stack([turn + soft * moment, none, none], axis=1),
-            compliance=compliance,
-            volume=volume + turn_rate * moment + soft_rate * moment**2 / 2,
-            motion_by_pressure=np.stack([rate, none, none], axis=1),
+        """The answer to ``pressure`` (MPa) and to section loads (k, 3): moment, axial, shear.
+
+        Raises ``BellowsError`` for a pressure beyond those known.
+        """
+        found = response_of(self._curves_at(self._checked(pressure)), loads)
+        rest, slip = self.volume_at_rest, self.shear_compliance
+        return corrected(found, pressure, loads[:, 2], self.softening, rest, slip)
+
+    @property
+    def volume_at_rest(self) -> float:
+        """Air inside, mm^3."""
+        return float(self.volumes[np.abs(self.pressures).argmin()])
+
+    def reach(self, pressure: float) -> tuple[float, float]:
+        """Moments (N mm) up to which it is known, between those of the rows beside."""
+        low, high = (np.interp(pressure, self.pressures, side) for side in self.reaches.T)
+        return float(low), float(high)
+
+    def within(self, pressure: float, loads: Reals) -> bool:
+        """Whether it is known at the moments of section loads (k, 3) at a pressure (MPa)."""
+        low, high = self.reach(pressure)
+        return bool((loads[:, 0] >= low).all() and (loads[:, 0] <= high).all())
+
+    def _checked(self, pressure: float) -> float:
+        low, high = float(self.pressures[0]), float(self.pressures[-1])
+        slack = ROUNDING * (high - low)
+        if not low - slack <= pressure <= high + slack:
+            raise BellowsError(
+                f"pressure = {pressure:g} MPa lies outside the law of the finger's ends, which "
+                f"goes from {low:g} to {high:g} MPa."
+            )
+        return float(np.clip(pressure, low, high))
+
+    @cached_property
+    def _curves_at(self) -> Callable[[float], Curves]:
+        """A chain asks for the same pressure at every step."""
+        return lru_cache(KEPT_PRESSURES)(self._curves)
+
+    def _curves(self, pressure: float) -> Curves:
+        """Energy, extension and axial compliance, with their derivatives by the pressure."""
+        fields = [self._fields(pressure, order) for order in (0, 1)]
+        value, slope, bend = (np.stack(each, axis=1) for each in zip(*fields, strict=True))
+        return Curves(0.0, 0.0, hermite(self.moments, value, slope, bend, BENT))
+
+    def _fields(self, pressure: float, order: int) -> tuple[Reals, Reals, Reals]:
+        """Values and first and second derivatives by the moment, (m, 3) each.
+
+        With ``order`` 1 they are those of the derivatives by the pressure.
+        """
+        rotation, extension = self._motions(pressure, order).T
+        soft, coupling, axial, bend, axial_slope, axial_bend = self._compliances(pressure, order).T
+        work = self._work(pressure, order) + _integral(self.moments, rotation, soft)
+        return (
+            np.stack([work, extension, axial], axis=1),
+            np.stack([rotation, coupling, axial_slope], axis=1),
+            np.stack([soft, bend, axial_bend], axis=1),
         )
 
     @cached_property
-    def _curves(self) -> PPoly:
-        """Rotation, compliance and volume by pressure."""
+    def _motions(self) -> Callable[[float, int], Reals]:
+        """Rotation and extension (m, 2) by the pressure, or their derivative."""
+        from scipy.interpolate import CubicHermiteSpline
+
+        return CubicHermiteSpline(self.pressures, self.motion, self.rate)
+
+    @cached_property
+    def _compliances(self) -> Callable[[float, int], Reals]:
+        """All that ``_fields`` needs besides (m, 6), monotone from row to row."""
         from scipy.interpolate import PchipInterpolator
 
-        pressures = [point.pressure for point in self.points]
-        values = [(point.rotation, point.compliance, point.volume) for point in self.points]
-        return PchipInterpolator(pressures, np.array(values))
+        nodes, columns = self.moments, []
+        for motion, by in zip(self.motion, self.compliance, strict=True):
+            axial = by[:, 1, 1]
+            bend = curvatures(nodes, motion[:, 1], by[:, 0, 1])
+            axial_slope = monotone_slopes(nodes, axial)
+            more = (bend, axial_slope, curvatures(nodes, axial, axial_slope))
+            columns.append(np.stack([by[:, 0, 0], by[:, 0, 1], axial, *more], axis=1))
+        return PchipInterpolator(self.pressures, np.array(columns))
 
     @cached_property
-    def _work(self) -> PPoly:
-        """Their integrals by the pressure from none."""
-        found = self._curves.antiderivative()
-        found.c[-1] -= found(0.0)
-        return found
+    def _work(self) -> Callable[[float, int], float]:
+        """Energy without section loads: the volume's integral by the pressure."""
+        from scipy.interpolate import PchipInterpolator
+
+        found = PchipInterpolator(self.pressures, self.volumes).antiderivative()
+        at_rest = found(0.0)
+        return lambda pressure, order: float(found(pressure, order) - (0 if order else at_rest))
 
 
-def end_hinge(short: Problem, inner: SectionLaw, pressures: tuple[float, ...]) -> EndHinge:
-    """Of a short actuator of one bubble: half of what it adds to two half bubbles.
-
-    Args:
-        short: the half of an actuator of one bubble, or a bubble without neighbours.
-        inner: half a bubble without neighbours.
-        pressures: at which it is solved, 0 among them.
-
-    Raises:
-        BellowsError: it does not reach them.
-    """
-    return EndHinge(tuple(_end_point(each, inner) for each in _solutions(short, pressures)))
-
-
-def _solutions(short: Problem, pressures: tuple[float, ...]) -> list[Solution]:
-    """By ascending pressure."""
-    from solver import solve
-
-    ordered = sorted(pressures, key=abs)
-    found = solve(short, ordered[-1], stops=[each for each in ordered[:-1] if each])
-    if not found.converged:
-        raise BellowsError(f"there is no law of the ends: {found.message}")
-    reached = [solve(short, 0.0), *found.at_stops, found]
-    return sorted(reached, key=lambda each: each.pressure)
-
-
-def _end_point(short: Solution, inner: SectionLaw) -> EndPoint:
-    two = inner.response(short.pressure, np.zeros((1, 3)))
-    turn, soft, volume = _whole(short)
-    return EndPoint(
-        pressure=short.pressure,
-        rotation=turn / 2 - float(two.motion[0, 0]),
-        compliance=soft / 2 - float(two.compliance[0, 0, 0]),
-        volume=volume / 2 - float(two.volume[0]),
-    )
-
-
-def _whole(short: Solution) -> tuple[float, float, float]:
-    """Rotation (rad), its derivative by a moment at the tip, and volume of a full bubble."""
-    from solver import section_response
-
-    if short.problem.moving_plane is not None:  # a quarter of a bubble
-        section = section_response(short)
-        soft = 2 * section.derivatives[0, 0] / HALVES
-        return 2 * section.tilt, float(soft), 2 * HALVES * section.volume
-    volume = HALVES * short.path[-1].volume
-    return float(np.radians(short.rotation)), _tip_compliance(short) / HALVES, volume
-
-
-def _tip_compliance(short: Solution) -> float:
-    """Rotation of the tip's face per couple on it (of the half width), rad per N mm."""
-    from bellows_design.geometry.face_names import TIP
-    from solver import rotation
-    from solver.problem.loads import Traction, nodal_forces
-    from solver.sensitivity.adjoint import TangentSystem
-
-    mesh = short.problem.mesh
-    forces = nodal_forces(mesh, (Traction(TIP, _bending(short)),))
-    system = TangentSystem.of(short, None)
-    numbering = system.at.assembly.numbering
-    vector, _ = system.solve(numbering.gather(forces))
-    change, _, _ = numbering.expand(vector)
-    moment = _moment(short, forces)
-    step = SMALL_TURN * mesh.size / np.abs(change).max()
-    sides = [rotation(mesh, short.displacement + side * change, TIP) for side in (-step, step)]
-    return float(np.radians(sides[1] - sides[0]) / (2 * step) / moment)
-
-
-SMALL_TURN = 1e-4
-"""Displacement in body diagonals by which a rotation's derivative is found."""
-
-
-def _bending(short: Solution) -> Callable[[Reals], Reals]:
-    """Traction normal to the turned tip, in proportion to the height above the face's middle."""
-    from bellows_design.geometry.face_names import TIP
-
-    mesh, turn = short.problem.mesh, np.radians(short.rotation)
-    nodes = mesh.nodes[mesh.surface_nodes(TIP)]
-    middle = (nodes[:, 2].min() + nodes[:, 2].max()) / 2
-    normal = np.array([np.cos(turn), 0.0, -np.sin(turn)])
-    return lambda places: (places[:, 2] - middle)[:, None] * normal
-
-
-def _moment(short: Solution, forces: Reals) -> float:
-    """About y of nodal forces (n, 3) on the deformed body, N mm; from z to x."""
-    places = short.problem.mesh.nodes + short.displacement
-    return float((places[:, 2] * forces[:, 0] - places[:, 0] * forces[:, 2]).sum())
+def _integral(nodes: Reals, values: Reals, slopes: Reals) -> Reals:
+    """From 0, a node, to nodes (n,) of the cubics through values and slopes (n,)."""
+    h = np.diff(nodes)
+    parts = h * (values[:-1] + values[1:]) / 2 - h**2 * np.diff(slopes) / 12
+    whole = np.concatenate([[0.0], np.cumsum(parts)])
+    result: Reals = whole - whole[np.flatnonzero(nodes == 0.0)[0]]
+    return result

@@ -3,12 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from bellows_design.analysis.error_estimate import ENDS_ERROR, FREE_REACH_ERROR, REACH_ERROR
-
-if TYPE_CHECKING:
-    from bellows_design.force.law.ends import EndPoint
 
 
 @dataclass(frozen=True)
@@ -33,10 +29,11 @@ class LawError:
     complete: bool = True
 
 
-def ends_error(end: EndPoint, free: float, with_stubs: bool) -> float:
-    """Of one end, rad, as an evaluation takes it; ``free``: rotation of half a bubble, rad.
+def ends_error(added: float, free: float, with_stubs: bool) -> float:
+    """Of one end without a moment, rad, as an evaluation takes it.
 
+    ``added``: by which it turns more than half a bubble, which turns by ``free``, rad.
     ``with_stubs``: the end is half of an actuator of one bubble, else half a bubble by itself.
     """
     reach = REACH_ERROR if with_stubs else FREE_REACH_ERROR
-    return ENDS_ERROR * abs(end.rotation) + reach * abs(free)
+    return ENDS_ERROR * abs(added) + reach * abs(free)

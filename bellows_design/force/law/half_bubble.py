@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from bellows_design.design.design import Design
-from bellows_design.force.law.ends import EndHinge
+from bellows_design.force.law.ends import EndPiece
 from bellows_design.force.law.errors import LawError
 from bellows_design.force.law.interpolation.readings import gaps, highest_stress
 from bellows_design.force.law.interpolation.table import Table
@@ -31,7 +31,8 @@ class CellLaw:
     Attributes:
         design: whose bubbles they are.
         tabulated: the law by interpolation.
-        end: what either end adds: a hinge between the stub and the outer half bubble.
+        root: the law of the first bubble's outer half with its stub's turning.
+        tip: that of the last bubble's.
         free_rotation: of half a bubble at the design's pressure, rad.
         tolerance: of the interpolated rotation, relative to the free rotation.
         stress_factor: highest stress on the finest mesh of an evaluation over that on the table's,
@@ -44,7 +45,8 @@ class CellLaw:
 
     design: Design
     tabulated: TabulatedLaw
-    end: EndHinge
+    root: EndPiece
+    tip: EndPiece
     free_rotation: float
     tolerance: float
     stress_factor: float
@@ -77,7 +79,7 @@ class CellLaw:
 
     @cached_property
     def without_contact(self) -> TabulatedLaw:
-        """The outer halves of the first and the last bubble, which no neighbour stops.
+        """The same half bubble if no neighbour stopped it.
 
         Where neighbours would touch, the compliance stays what it was before. Against Prototype 1's
         cell without contact at 0.1 MPa the rotation is then too large by 0.2, 0.6 and 1.9 degrees

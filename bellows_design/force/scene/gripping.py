@@ -66,8 +66,7 @@ def _payload_error(found: grip.Grip, facts: Facts) -> float:
     strongest = found.strongest
     if strongest is None or not found.largest_force:
         return 0.0
-    loads = strongest.loads[found.loaded.chain.lengths > 0]
-    unknown = facts.unknown(strongest.pressure, loads)
+    unknown = facts.unknown(strongest.pressure, strongest.loads)
     return force_error(found.loaded, strongest, found.pull.force, unknown).total
 
 

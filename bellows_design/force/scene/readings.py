@@ -34,7 +34,7 @@ class Readings:
         """The record of ``state``; of a grip once the object's weight pulls, if it is held."""
         grip = self._gripping(state)
         state = state if grip is None else grip.state
-        facts, loads = self.law.facts, state.loads[self.loaded.chain.lengths > 0]
+        facts, loads = self.law.facts, state.loads
         x, z, moment = exerted(state)
         force = partial(force_of, self.scene)
         unknown = facts.unknown(state.pressure, loads)

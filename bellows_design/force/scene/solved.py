@@ -92,11 +92,10 @@ class Solved:
     @property
     def beyond(self) -> tuple[ChainState, ...]:
         """States of the path for whose moments the law was not computed."""
-        halves = self.loaded.chain.lengths > 0
         return tuple(
             state
             for state in self.path.steps
-            if not self.law.facts.within(state.pressure, state.loads[halves])
+            if not self.law.facts.within(state.pressure, state.loads)
         )
 
     @property
@@ -108,26 +107,11 @@ class Solved:
 
 def chain_of(design: Design, law: FingerLaw) -> Chain:
     """The finger of ``design`` with its weights and its fingertip."""
-    chain, stub = _chain(design, law), tip_stub(design)
-    chain = replace(chain, tip_length=stub.length, tip_height=stub.height)
-    if law.outer is None:
-        return chain
-    halves = np.flatnonzero(chain.lengths > 0)
-    pieces = list(chain.pieces)
-    for number in (halves[0], halves[-1]):
-        pieces[number] = replace(pieces[number], law=law.outer)
-    return replace(chain, pieces=tuple(pieces))
-
-
-def _chain(design: Design, law: FingerLaw) -> Chain:
-    """With the same law everywhere, and the end of the tendon for a tip."""
-    return Chain.of(
-        design.bellows,
-        law.piece,
-        root_hinge=law.root_hinge,
-        tip_hinge=law.tip_hinge,
-        weights=weights_of(design),
+    stub = tip_stub(design)
+    chain = Chain.of(
+        design.bellows, law.piece, root=law.root, tip=law.tip, weights=weights_of(design)
     )
+    return replace(chain, tip_length=stub.length, tip_height=stub.height)
 
 
 def _with_steps(pressures: Sequence[float]) -> list[float]:

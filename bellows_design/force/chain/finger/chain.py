@@ -59,24 +59,26 @@ class Chain:
         bellows: BellowsParameters,
         law: SectionLaw,
         *,
-        root_hinge: SectionLaw | None = None,
-        tip_hinge: SectionLaw | None = None,
+        root: SectionLaw | None = None,
+        tip: SectionLaw | None = None,
         weights: Weights | None = None,
         root_frame: tuple[float, float, float] = (0.0, 0.0, 0.0),
     ) -> Chain:
         """The finger of a design: two pieces a bubble, that follow ``law``.
 
+        The outer halves of the first and the last bubble follow ``root`` and ``tip``, if given.
         The stub at the root ends half a pitch before the first bubble's middle, in the gap's middle
         had it a neighbour; that at the tip begins likewise.
         """
         weights = weights or Weights()
-        root = bellows.bubble_middles[0] - bellows.pitch / 2
-        halves = [Piece(law, backward, weights.piece) for backward in (True, False)]
-        ends = [() if hinge is None else (Piece(hinge),) for hinge in (root_hinge, tip_hinge)]
+        stub = bellows.bubble_middles[0] - bellows.pitch / 2
+        inner = [law] * (2 * bellows.bubble_count - 2)
+        laws = (root or law, *inner, tip or law)
+        pieces = (Piece(own, number % 2 == 0, weights.piece) for number, own in enumerate(laws))
         return cls(
-            pieces=(*ends[0], *(halves * bellows.bubble_count), *ends[1]),
-            root_length=root,
-            tip_length=bellows.length - root - bellows.bubble_count * bellows.pitch,
+            pieces=tuple(pieces),
+            root_length=stub,
+            tip_length=bellows.length - stub - bellows.bubble_count * bellows.pitch,
             tip_height=bellows.tendon_height,
             height=bellows.bubble_height,
             root_weight=weights.root,

@@ -38,3 +38,13 @@ def slopes(nodes: Reals, values: Reals) -> Reals:
     secants = np.diff(values) / h
     middle = (h[1:] * secants[:-1] + h[:-1] * secants[1:]) / (h[1:] + h[:-1])
     return np.concatenate([secants[:1], middle, secants[-1:]])
+
+
+def monotone_slopes(nodes: Reals, values: Reals) -> Reals:
+    """First derivatives (n,) from values (n,) with which cubics do not overshoot."""
+    from scipy.interpolate import PchipInterpolator
+
+    if len(nodes) < 2:
+        return np.zeros_like(values)
+    found: Reals = PchipInterpolator(nodes, values).derivative()(nodes)
+    return found

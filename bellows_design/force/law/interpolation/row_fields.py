@@ -8,7 +8,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from bellows_design.force.law.interpolation.derivatives import curvatures, slopes
+from bellows_design.force.law.interpolation.derivatives import (
+    curvatures,
+    monotone_slopes,
+    slopes,
+)
 from bellows_design.force.law.interpolation.polynomials import Piecewise, hermite
 from bellows_design.force.law.interpolation.rows import Row
 from solver.arrays import Reals
@@ -42,7 +46,7 @@ def _fields(row: Row, places: Reals) -> list[Columns]:
     return [
         (energy, rotation, by[:, 0, 0]),
         _completed(places, extension, by[:, 0, 1]),
-        _completed(places, by[:, 1, 1], slopes(places, by[:, 1, 1])),
+        _completed(places, by[:, 1, 1], monotone_slopes(places, by[:, 1, 1])),
     ]
 
 

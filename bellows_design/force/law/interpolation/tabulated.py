@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from bellows_design.force.law.interpolation.table import Fields, Table
+from bellows_design.force.law.interpolation.table import Curves, Fields, Table
 from bellows_design.force.section_law import SectionResponse
 from solver.arrays import Reals
 
@@ -42,42 +42,52 @@ class TabulatedLaw:
         Raises:
             BellowsError: a pressure beyond those of the table.
         """
-        found = self._on_the_mesh(pressure, loads)
-        soft, rest, shear = self.softening, self.volume_at_rest, loads[:, 2]
-        motion, compliance = soft * found.motion, soft * found.compliance
-        motion[:, 2] = self.shear_compliance * shear
-        compliance[:, 2, 2] = self.shear_compliance
-        slipped = self.shear_compliance * shear**2 / 2
-        return SectionResponse(
-            energy=soft * found.energy + (1 - soft) * pressure * rest + slipped,
-            motion=motion,
-            compliance=compliance,
-            volume=soft * found.volume + (1 - soft) * rest,
-            motion_by_pressure=soft * found.motion_by_pressure,
-        )
-
-    def _on_the_mesh(self, pressure: float, loads: Reals) -> SectionResponse:
-        """By moment and axial force, as on the mesh of the table."""
-        moment, axial = loads[:, 0], loads[:, 1]
-        fields = self.table.curves(pressure).fields(moment)
-        by_axial = np.stack([np.ones_like(axial), axial, axial**2 / 2], axis=1)
-        extension = fields.value[:, 1] + axial * fields.value[:, 2]
-        motion, rate = np.zeros((2, len(loads), 3))
-        motion[:, 0], motion[:, 1] = (fields.by_moment * by_axial).sum(axis=1), extension
-        rate[:, 0] = (fields.by_both * by_axial).sum(axis=1)
-        rate[:, 1] = fields.by_pressure[:, 1] + axial * fields.by_pressure[:, 2]
-        return SectionResponse(
-            energy=(fields.value * by_axial).sum(axis=1),
-            motion=motion,
-            compliance=_compliance(fields, by_axial, axial),
-            volume=(fields.by_pressure * by_axial).sum(axis=1),
-            motion_by_pressure=rate,
-        )
+        found = response_of(self.table.curves(pressure), loads)
+        rest, slip = self.volume_at_rest, self.shear_compliance
+        return corrected(found, pressure, loads[:, 2], self.softening, rest, slip)
 
     def within(self, pressure: float, loads: Reals) -> bool:
         """Whether the moments of section loads (k, 3) at a pressure (MPa) are in the table."""
         low, high = self.table.reach(pressure)
         return bool((loads[:, 0] >= low).all() and (loads[:, 0] <= high).all())
+
+
+def response_of(curves: Curves, loads: Reals) -> SectionResponse:
+    """By moment and axial force, as on the mesh that curves were computed on."""
+    moment, axial = loads[:, 0], loads[:, 1]
+    fields = curves.fields(moment)
+    by_axial = np.stack([np.ones_like(axial), axial, axial**2 / 2], axis=1)
+    extension = fields.value[:, 1] + axial * fields.value[:, 2]
+    motion, rate = np.zeros((2, len(loads), 3))
+    motion[:, 0], motion[:, 1] = (fields.by_moment * by_axial).sum(axis=1), extension
+    rate[:, 0] = (fields.by_both * by_axial).sum(axis=1)
+    rate[:, 1] = fields.by_pressure[:, 1] + axial * fields.by_pressure[:, 2]
+    return SectionResponse(
+        energy=(fields.value * by_axial).sum(axis=1),
+        motion=motion,
+        compliance=_compliance(fields, by_axial, axial),
+        volume=(fields.by_pressure * by_axial).sum(axis=1),
+        motion_by_pressure=rate,
+    )
+
+
+def corrected(
+    found: SectionResponse, pressure: float, shear: Reals, soft: float, rest: float, slip: float
+) -> SectionResponse:
+    """A response softened by a factor, and with the slip under shear forces (k,).
+
+    ``rest``: volume at rest, mm^3, which the factor does not change; ``slip``: by shear force.
+    """
+    motion, compliance = soft * found.motion, soft * found.compliance
+    motion[:, 2] = slip * shear
+    compliance[:, 2, 2] = slip
+    return SectionResponse(
+        energy=soft * found.energy + (1 - soft) * pressure * rest + slip * shear**2 / 2,
+        motion=motion,
+        compliance=compliance,
+        volume=soft * found.volume + (1 - soft) * rest,
+        motion_by_pressure=soft * found.motion_by_pressure,
+    )
 
 
 def _compliance(fields: Fields, by_axial: Reals, axial: Reals) -> Reals:

@@ -15,7 +15,7 @@ from bellows_design.design.shipped import load_design
 from bellows_design.force.law.cell_law import cell_law, extended
 from bellows_design.force.law.computation.building import error_at
 from bellows_design.force.law.computation.continuation import Continuation, Solved
-from bellows_design.force.law.ends import EndHinge, EndPoint
+from bellows_design.force.law.ends import EndPiece
 from bellows_design.force.law.errors import LawError
 from bellows_design.force.law.half_bubble import CellLaw, Effort
 from bellows_design.force.law.interpolation.rows import Row, doubt
@@ -79,8 +79,8 @@ def test_the_pieces_and_ends_of_an_unloaded_finger_turn_as_its_evaluation(own_ca
     law = cell_law(DESIGN, 0.02, budget=UNHURRIED, store=store)
     none = np.zeros((1, 3))
     piece = law.response(PRESSURE, none).motion[0, 0]
-    end = law.end.response(PRESSURE, none).motion[0, 0]
-    whole = np.degrees(2 * DESIGN.bellows.bubble_count * piece + 2 * end)
+    ends = sum(end.response(PRESSURE, none).motion[0, 0] for end in (law.root, law.tip))
+    whole = np.degrees((2 * DESIGN.bellows.bubble_count - 2) * piece + ends)
     assert whole == pytest.approx(evaluation.bending_angle_deg, rel=2e-3)
     assert law.error.interpolation <= 0.02 * law.free_rotation
     again = cell_law(DESIGN, 0.02, budget=UNHURRIED, store=store)
@@ -96,10 +96,22 @@ def test_a_law_is_extended_by_the_moments_that_a_chain_asks_for(
     pressed, free = (each.point for each in points)
     (half,), _ = cell.from_zero((PRESSURE / 2,))
     table = Table((Row((half.point,)), Row((pressed, free))))
+    none, pressures = np.zeros((2, 1, 2)), np.array([0.0, PRESSURE])
+    end = EndPiece(
+        length=DESIGN.bellows.pitch / 2,
+        pressures=pressures,
+        moments=np.zeros(1),
+        motion=none,
+        compliance=np.zeros((2, 1, 2, 2)),
+        rate=none,
+        volumes=np.zeros(2),
+        reaches=np.zeros((2, 2)),
+    )
     law = CellLaw(
         design=DESIGN,
         tabulated=TabulatedLaw(DESIGN.bellows.pitch / 2, table),
-        end=EndHinge((EndPoint(0.0, 0.0, 0.0, 0.0), EndPoint(PRESSURE, 0.0, 0.0, 0.0))),
+        root=end,
+        tip=end,
         free_rotation=free.rotation,
         tolerance=0.02,
         stress_factor=1.0,

@@ -1,39 +1,171 @@
-"""A hinge at an end: one potential of moment and pressure."""
+"""An end of a finger: one potential of pressure, moment and axial force, from computed points."""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
 import numpy as np
 import pytest
+from made_up_law import AT_REST, MadeUp
 
-from bellows_design.force.law.ends import EndHinge, EndPoint
-
-HINGE = EndHinge(
-    (
-        EndPoint(0.0, 0.0, 2e-3, 4.0),
-        EndPoint(0.04, 0.02, 1.5e-3, 1.0),
-        EndPoint(0.1, 0.03, -1e-3, -9.0),
-    )
+from bellows_design.design.shipped import load_design
+from bellows_design.errors import BellowsError
+from bellows_design.force.chain.finger.chain import Chain
+from bellows_design.force.law.computation.ends import (
+    LEAST_SHARE,
+    admissible,
+    end_pieces,
+    moments_between,
+    walked,
 )
-LOADS = np.array([[-30.0, 1.0, 2.0], [12.0, 0.0, 0.0]])
+from bellows_design.force.law.computation.short_actuator import EndPoint, SolvedEnds
+from bellows_design.force.law.ends import EndPiece
+from bellows_design.force.law.interpolation.tabulated import TabulatedLaw
+from bellows_design.force.section_law import LinearLaw, SectionResponse
+
+LOADS = np.array([[-70.0, 0.5, 0.2], [-31.0, -1.0, 0.0], [-8.7, 2.0, 1.0], [12.0, 0.1, -0.3]])
+"""The first is beyond the moments of the law."""
+
+PRESSURES = (0.0, 0.025, 0.05, 0.1)
+SOFTER = MadeUp()
 
 
-def test_it_passes_through_its_points_and_has_no_length() -> None:
-    for point in HINGE.points:
-        at = HINGE.response(point.pressure, np.zeros((1, 3)))
-        assert at.motion[0, 0] == pytest.approx(point.rotation)
-        assert at.compliance[0, 0, 0] == pytest.approx(point.compliance)
-        assert at.volume[0] == pytest.approx(point.volume)
-    assert HINGE.length == 0
+class ClosedForm:
+    """Ends in closed form instead of an actuator; the tip turns half as much as the root.
+
+    Below ``lost`` (N mm) they have no equilibrium.
+    """
+
+    factorizations = 0
+
+    def __init__(self, lost: float = -np.inf) -> None:
+        self.lost = lost
+
+    def from_zero(self, pressures: Sequence[float]) -> list[SolvedEnds]:
+        return [self._at(pressure, 0.0) for pressure in sorted(pressures, key=abs)]
+
+    def beside(self, near: SolvedEnds, moment: float) -> SolvedEnds | str:
+        return "there is none" if moment < self.lost else self._at(near.pressure, moment)
+
+    def _at(self, pressure: float, moment: float) -> SolvedEnds:
+        point = SOFTER.point(pressure, moment)
+        by = point.derivatives
+        motion = np.array([point.rotation, point.extension])
+        root = EndPoint(motion, by[:2, :2], by[:2, 2], point.volume)
+        tip = replace(root, motion=motion / 2, compliance=by[:2, :2] / 2, rate=by[:2, 2] / 2)
+        return SolvedEnds(pressure, moment, (root, tip), None)  # type: ignore[arg-type]
 
 
-def test_rotation_and_volume_are_derivatives_of_its_energy() -> None:
-    pressure, step = 0.07, 1e-6
-    at = HINGE.response(pressure, LOADS)
-    below, above = (HINGE.response(pressure + side, LOADS) for side in (-step, step))
-    assert (above.energy - below.energy) / (2 * step) == pytest.approx(at.volume, rel=1e-7)
-    rate = (above.motion - below.motion) / (2 * step)
-    assert rate == pytest.approx(at.motion_by_pressure, rel=1e-6)
-    turn = np.array([1e-3, 0, 0])
-    below, above = (HINGE.response(pressure, LOADS + side * turn) for side in (-1, 1))
-    assert (above.energy - below.energy) / 2e-3 == pytest.approx(at.motion[:, 0], rel=1e-7)
-    assert above.motion - below.motion == pytest.approx(2e-3 * at.compliance[:, :, 0])
+def pieces(lost: float = -np.inf) -> tuple[EndPiece, EndPiece]:
+    inner = TabulatedLaw(3.0, SOFTER.table(4, 7), volume_at_rest=AT_REST, shear_compliance=0.05)
+    return end_pieces(ClosedForm(lost), inner, PRESSURES)
+
+
+@pytest.fixture(scope="module")
+def root() -> EndPiece:
+    return replace(pieces()[0], softening=1.04)
+
+
+def difference(
+    law: EndPiece, pick: Callable[[SectionResponse], np.ndarray], axis: int, step: float
+) -> np.ndarray:
+    """Central difference by a section load, or by the pressure for axis 3."""
+    found = []
+    for side in (-step, step):
+        shift = np.zeros(4)
+        shift[axis] = side
+        found.append(pick(law.response(0.043 + shift[3], LOADS + shift[:3])))
+    return (found[1] - found[0]) / (2 * step)
+
+
+@pytest.mark.parametrize("axis", range(3))
+def test_motion_and_compliance_are_derivatives_of_the_energy(root: EndPiece, axis: int) -> None:
+    at = root.response(0.043, LOADS)
+    motion = difference(root, lambda r: r.energy, axis, 1e-3)
+    compliance = difference(root, lambda r: r.motion, axis, 1e-3)
+    coupling = difference(root, lambda r: r.volume, axis, 1e-3)
+    assert motion == pytest.approx(at.motion[:, axis], abs=1e-8)
+    assert compliance == pytest.approx(at.compliance[:, :, axis], abs=1e-8)
+    assert coupling == pytest.approx(at.motion_by_pressure[:, axis], abs=1e-5)
+
+
+def test_the_volume_is_the_derivative_of_the_energy_by_the_pressure(root: EndPiece) -> None:
+    at = root.response(0.043, LOADS)
+    assert difference(root, lambda r: r.energy, 3, 1e-6) == pytest.approx(at.volume, rel=1e-7)
+    assert difference(root, lambda r: r.motion, 3, 1e-6) == pytest.approx(
+        at.motion_by_pressure, rel=1e-5, abs=1e-6
+    )
+
+
+def test_it_passes_through_the_computed_points() -> None:
+    root, tip = pieces()
+    for pressure in PRESSURES:
+        loads = np.stack([root.moments, *np.zeros((2, len(root.moments)))], axis=1)
+        exact = [SOFTER.point(pressure, moment) for moment in root.moments.tolist()]
+        for law, share in ((root, 1.0), (tip, 0.5)):
+            at = law.response(pressure, loads)
+            assert at.motion[:, 0] == pytest.approx([share * p.rotation for p in exact])
+            assert at.motion[:, 1] == pytest.approx([share * p.extension for p in exact])
+            soft = [share * p.compliance for p in exact]
+            assert at.compliance[:, 0, 0] == pytest.approx(soft, rel=1e-6)
+
+
+def test_between_points_it_is_near_the_closed_form() -> None:
+    root, _ = pieces()
+    moments = np.linspace(-55, 15, 29)
+    at = root.response(0.08, np.stack([moments, 0 * moments, 0 * moments], axis=1))
+    exact = [SOFTER.derivative((0, 1, 0), 0.08, float(moment)) for moment in moments]
+    assert np.abs(at.motion[:, 0] - exact).max() < 0.01 * np.ptp(exact)
+
+
+def test_where_equilibria_end_it_goes_on_with_constant_compliance_and_says_so() -> None:
+    root, _ = pieces(lost=-30.0)
+    low, _ = root.reach(0.1)
+    near, far = np.array([[low - 1.0, 0, 0]]), np.array([[low - 25.0, 0, 0]])
+    assert -30.0 <= low < -10.0
+    assert root.within(0.1, np.array([[low + 1.0, 0, 0]]))
+    assert not root.within(0.1, near)
+    assert root.response(0.1, far).compliance[0, 0, 0] == pytest.approx(
+        root.response(0.1, near).compliance[0, 0, 0]
+    )
+
+
+def test_a_state_about_to_collapse_ends_a_row() -> None:
+    class Collapsing(ClosedForm):
+        def beside(self, near: SolvedEnds, moment: float) -> SolvedEnds:
+            found = self._at(near.pressure, moment)
+            factor = 100.0 if moment < -20 else 1.0
+            ends = [replace(e, compliance=factor * e.compliance) for e in found.ends]
+            return replace(found, ends=(ends[0], ends[1]))
+
+    ends = Collapsing()
+    row = walked(ends, ends.from_zero((0.0,))[0], moments_between(-60.0, 20.0), (-60.0, 20.0))
+    assert row[0].moment >= -20
+    assert row[-1].moment == 20
+
+
+def test_no_loads_gain_energy_from_an_admissible_compliance() -> None:
+    noisy = np.array([[0.01, 0.03], [0.03, 0.05]])
+    found = admissible(noisy)
+    assert found[1, 1] == pytest.approx(LEAST_SHARE * 0.09)
+    assert np.linalg.eigvalsh(found).min() > 0
+    assert (admissible(found) == found).all()
+    with pytest.raises(BellowsError, match="against itself"):
+        admissible(np.array([[-0.01, 0.0], [0.0, 0.05]]))
+
+
+def test_a_pressure_beyond_the_rows_is_refused(root: EndPiece) -> None:
+    with pytest.raises(BellowsError, match="goes from 0 to"):
+        root.response(0.12, LOADS)
+
+
+def test_the_outer_halves_of_a_finger_follow_their_own_laws() -> None:
+    bellows = load_design("prototype_1").bellows
+    none = np.zeros((3, 3))
+    inner, root, tip = (LinearLaw(bellows.pitch / 2, none, np.full(3, x)) for x in (1.0, 2.0, 3.0))
+    chain = Chain.of(bellows, inner, root=root, tip=tip)
+    assert [piece.law for piece in chain.pieces[:2]] == [root, inner]
+    assert [piece.law for piece in chain.pieces[-2:]] == [inner, tip]
+    assert chain.length == pytest.approx(bellows.length)
+    assert [piece.backward for piece in chain.pieces[:2]] == [True, False]
