@@ -19,6 +19,7 @@ from bellows_design.force.air import FLOW, Air, air_of_stroke
 from bellows_design.force.chain.path import Path
 from bellows_design.force.chain.state import ChainState
 from bellows_design.force.finger_law import FingerLaw
+from bellows_design.force.law.half_bubble import CellLaw
 from bellows_design.force.law_of_design import solved_with_its_law
 from bellows_design.force.result import ForceCurve, Seconds
 from bellows_design.force.scene.distances import Distances, moved_away
@@ -35,7 +36,7 @@ def force_curve(
     design: Design,
     scene: Scene,
     pressures: Sequence[float],
-    law: FingerLaw | None = None,
+    law: FingerLaw | CellLaw | None = None,
     *,
     name: str = "",
     flow: float = FLOW,
@@ -50,7 +51,8 @@ def force_curve(
         design: The finger.
         scene: What stands around it.
         pressures: Away from zero and of one sign, MPa; the last is the highest.
-        law: Of its pieces; None for that of its unit cell, computed or from ``store``.
+        law: Of the finger, or of its unit cell, which is extended where that is needed; None for
+            the latter, computed or from ``store``.
         name: Of the scene; without it its kind.
         flow: Of free air through the valve, L/min.
         by_distance: Whether load cell or wall is moved away at the last pressure.
@@ -66,10 +68,10 @@ def force_curve(
             the finger does not reach at the last pressure.
         MeshingError: No usable mesh of the cell, or none in time.
     """
-    if law is None:
-        solved = solved_with_its_law(design, scene, pressures, progress, budget, store)
-    else:
+    if isinstance(law, FingerLaw):
         solved = Solved.of(design, scene, pressures, law)
+    else:
+        solved = solved_with_its_law(design, scene, pressures, progress, budget, store, law)
     return _curve(solved, name or scene.kind, flow, by_distance)
 
 

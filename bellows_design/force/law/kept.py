@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict
+from dataclasses import asdict, replace
+from datetime import UTC, datetime
 from typing import TYPE_CHECKING
 
 from bellows_design.budget import Budget
 from bellows_design.design.design import Design
 from bellows_design.force.law.half_bubble import CellLaw
+from bellows_design.progress import Progress
 from bellows_design.store.key import Key, plain, present_surroundings
 from bellows_design.store.store import LAWS, Store
 from bellows_design.store.values import Arrays, restored
@@ -59,3 +61,13 @@ def keep(store: Store | None, key: Key, law: CellLaw) -> None:
     arrays: Arrays = {}
     values = {"law": plain_record(law, arrays, {Design: lambda _: None})}
     store.of_kind(LAWS).keep_record(key, values, arrays)
+
+
+def keep_noted(store: Store | None, key: Key, law: CellLaw, progress: Progress) -> None:
+    """Keep a law with the present time, or note that it could not be."""
+    from bellows_design.store.store import written
+
+    try:
+        keep(store, key, replace(law, from_cache=written(datetime.now(UTC))))
+    except OSError as error:
+        progress.note(f"the section's law is not kept: {error}")

@@ -14,10 +14,12 @@ from linear_finger import DESIGN, linear_law
 
 from bellows_design.approval import Verdict, decide, open_question
 from bellows_design.design import Design
-from bellows_design.design.scenes.scene import Scene, named_scene
+from bellows_design.design.scenes.scene import named_scene
+from bellows_design.errors import UnreachedError
 from bellows_design.export.statements import grounds
 from bellows_design.force.curve import force_curve
 from bellows_design.force.finger_law import FingerLaw, Uncertainty
+from bellows_design.force.required_scenes import required_scenes
 from bellows_design.force.result import SceneResult
 from bellows_design.leak_test.record import Unavailable
 from bellows_design.pipeline import run
@@ -145,7 +147,7 @@ def test_a_run_states_its_scenes_and_a_design_without_any_states_nothing(
     stub_stages: Callable[..., None], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     stub_stages(replace(GOOD, design=DESIGN))
-    monkeypatch.setattr("bellows_design.force.required_scenes.force_curve", by_linear_law)
+    by_linear_laws(monkeypatch)
     design = holding("blocked", "cup", cup=CUP)
     found = run(design, tmp_path, leak_tester=Unavailable("it is not tried"))
     assert found.verdict.approved, found.verdict.reasons
@@ -158,17 +160,40 @@ def test_a_run_states_its_scenes_and_a_design_without_any_states_nothing(
     assert "scenes" not in plain.to_dict() and "scenes" not in grounds(plain)
 
 
-def by_linear_law(design: Design, scene: Scene, pressures: tuple[float, ...], **known: Any) -> Any:
-    """A force curve by the linear law."""
-    names = {name: known[name] for name in ("name", "by_distance")}
-    return force_curve(design, scene, pressures, linear_law(reach=FAR), **names)
+def by_linear_laws(monkeypatch: pytest.MonkeyPatch) -> list[Design]:
+    """Required scenes by the linear law; the designs whose law was asked for."""
+    asked: list[Design] = []
+
+    def cell_law(design: Design, **_: object) -> FingerLaw:
+        asked.append(design)
+        return linear_law(reach=FAR)
+
+    monkeypatch.setattr("bellows_design.force.required_scenes.cell_law", cell_law)
+    return asked
+
+
+def test_all_scenes_of_a_design_share_its_law(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked = by_linear_laws(monkeypatch)
+    design = holding("blocked", "free", "cup", cup=CUP)
+    assert all(each.found is not None for each in required_scenes(design))
+    assert asked == [design]
+    assert required_scenes(DESIGN) == () and len(asked) == 1
+
+
+def test_where_there_is_no_law_every_scene_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
+    def cell_law(design: Design, **_: object) -> FingerLaw:
+        raise UnreachedError("there is no law of the bubbles.")
+
+    monkeypatch.setattr("bellows_design.force.required_scenes.cell_law", cell_law)
+    found = required_scenes(holding("blocked", "free"))
+    assert {each.failure for each in found} == {"there is no law of the bubbles."}
 
 
 def test_a_scene_that_cannot_be_refuses_in_its_own_words(
     stub_stages: Callable[..., None], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     stub_stages(replace(GOOD, design=DESIGN))
-    monkeypatch.setattr("bellows_design.force.required_scenes.force_curve", by_linear_law)
+    by_linear_laws(monkeypatch)
     design = holding("far", far={"kind": "blocked", "support": "wall", "distance": 90.0})
     found = run(design, tmp_path, leak_tester=Unavailable("it is not tried"))
     (reason,) = found.verdict.reasons
