@@ -71,7 +71,10 @@ def test_a_tip_that_is_held_bears_the_couple_that_turns_all_pieces_back() -> Non
 
 
 def test_a_wall_at_the_rest_height_bears_what_a_load_cell_bears() -> None:
-    wall, cell = curve(Blocked(support="wall"), 0.1).last, curve(Blocked(), 0.1).last
+    wall, cell = (
+        force_curve(DESIGN, each, (0.1,), linear_law(), by_distance=False).last
+        for each in (Blocked(support="wall"), Blocked())
+    )
     # The wall gives way by a penalty of some micrometres.
     assert wall.force_n == pytest.approx(cell.force_n, rel=1e-3)
     assert wall.moment_n_mm == pytest.approx(0, abs=0.05)
@@ -163,6 +166,45 @@ def test_the_payload_is_as_uncertain_as_the_law_that_it_is_found_by(
     assert found.largest_payload_error_percent is not None
     changed = 100 * abs(again.largest_payload_g / found.largest_payload_g - 1)
     assert 0.99 * changed < found.largest_payload_error_percent < most * changed
+
+
+def test_an_object_that_is_drawn_in_keeps_its_place_and_that_is_said() -> None:
+    """The curled tip presses it towards the root by more than it weighs, or it sinks a little."""
+    light, heavy = curve(replace_mass(GRIP, 1.0), 0.1), curve(replace_mass(GRIP, 150.0), 0.02)
+    (said,) = light.warnings
+    more = -light.last.components_n[0] - 1e-6 * 9.80665 * 1e3 / 2
+    assert f"each by {more:.3g} N more than its weight" in said
+    assert not any("more than its weight" in each for each in heavy.warnings)
+
+
+@pytest.mark.parametrize("scene", [Blocked(support="wall", distance=8.0), GRIP])
+def test_the_error_by_shear_is_to_first_order_on_stiff_objects_too(scene: Blocked | Grip) -> None:
+    """A stiff object must not turn the curvature of the chain's motion into a force."""
+    soft = linear_law(rotations=Uncertainty(shear=1.0))
+    piece = replace(soft.piece, compliance=np.diag([BEND, 0.01, 0.02]))
+    found = force_curve(DESIGN, scene, (0.05,), replace(soft, piece=piece)).last
+    stiffer = replace(piece, compliance=np.diag([BEND, 0.01, 0.018]))
+    other = force_curve(DESIGN, scene, (0.05,), replace(soft, piece=stiffer)).last
+    # A tenth of the compliance less; the force is smooth in it, but for points that slide.
+    measured = 10 * abs(other.force_n / found.force_n - 1) * 100
+    assert found.error is not None and measured > 0.1
+    assert found.error.shear == pytest.approx(measured, rel=0.3)
+
+
+def test_a_finger_that_snaps_off_its_load_cell_ends_with_its_last_state_on_it() -> None:
+    found = curve(Blocked(), 0.05, 0.3)
+    assert not found.converged and "snaps off the load cell and curls past it" in found.message
+    assert 0.05 < found.last.pressure_mpa < 0.3 and found.last.tip_angle_deg < 180
+    assert found.last.stable and found.by_distance == ()
+
+
+def test_force_against_distance_ends_where_the_tip_snaps_off() -> None:
+    found = curve(Blocked(), 0.12)
+    (said,) = (each for each in found.warnings if "snaps off" in each)
+    assert "as its support moves away, at a distance of" in said
+    assert all(each.tip_angle_deg < 180 for each in found.by_distance)
+    places = [each.distance_mm for each in found.by_distance]
+    assert places == sorted(places)  # type: ignore[type-var]
 
 
 def test_a_finger_that_touches_its_neighbours_says_so() -> None:
