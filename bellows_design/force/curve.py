@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.integrate import trapezoid
 
 from bellows_design.budget import DEFAULT, Budget
 from bellows_design.design.design import Design
@@ -27,6 +27,7 @@ from bellows_design.force.scene.exerted import force_of
 from bellows_design.force.scene.readings import Readings
 from bellows_design.force.scene.solved import Solved
 from bellows_design.progress import SILENCE, Progress
+from bellows_design.validation.quoting import quoted
 
 if TYPE_CHECKING:
     from bellows_design.store.store import Store
@@ -54,7 +55,7 @@ def force_curve(
         law: Of the finger, or of its unit cell, which is extended where that is needed; None for
             the latter, computed or from ``store``.
         name: Of the scene; without it its kind.
-        flow: Of free air through the valve, L/min.
+        flow: Of free air through the valve, L/min; positive.
         by_distance: Whether load cell or wall is moved away at the last pressure.
         progress: Listens to stages and load.
         budget: Memory (GiB) and seconds that the law may take.
@@ -64,10 +65,12 @@ def force_curve(
         Readings as far as there are equilibria; the last good one where they end.
 
     Raises:
+        DesignError: Pressures or flow are not as said.
         BellowsError: A scene that cannot be: an object within the finger, a wall or object that
             the finger does not reach at the last pressure.
         MeshingError: No usable mesh of the cell, or none in time.
     """
+    _require_path(pressures, flow)
     if isinstance(law, FingerLaw):
         solved = Solved.of(design, scene, pressures, law)
     else:
@@ -95,7 +98,7 @@ def _curve(solved: Solved, name: str, flow: float, by_distance: bool) -> ForceCu
         curve=curve,
         by_distance=away.readings,
         tip_stiffness_n_per_mm=readings.tip_stiffness(last),
-        pneumatic_work_mj=_pneumatic_work(solved.path),
+        pneumatic_work_mj=solved.path.work_of_pressure,
         tip_work_mj=away.work,
         air=_air(readings, solved.path, flow),
         warnings=(*solved.warnings, *curve[-1].warnings, *away.warnings),
@@ -107,10 +110,25 @@ def _curve(solved: Solved, name: str, flow: float, by_distance: bool) -> ForceCu
     )
 
 
+def _require_path(pressures: Sequence[float], flow: float) -> None:
+    """Refuse pressures that do not go away from zero, and no flow. Raises ``DesignError``."""
+    steps = np.diff([0.0, *(float(each) for each in pressures)])
+    away = bool(np.isfinite(steps).all()) and (bool((steps > 0).all()) or bool((steps < 0).all()))
+    if not len(pressures) or not away:
+        said = ", ".join(f"{each:g}" for each in pressures) or "none"
+        raise DesignError(
+            f"pressures = {quoted(said)} MPa must go away from 0 MPa, each further than the one "
+            "before, all positive or all negative."
+        )
+    if not 0 < flow < math.inf:
+        raise DesignError(f"flow = {flow:g} L/min must be positive and finite.")
+
+
 def _require_touched(readings: Readings, state: ChainState) -> None:
     """Refuse a wall or an object that the finger does not come to. Raises ``DesignError``."""
     scene = readings.scene
-    if not isinstance(scene, Blocked | Grip) or force_of(scene, state) > 0:
+    held = isinstance(scene, Blocked) and scene.support == "held"
+    if held or not isinstance(scene, Blocked | Grip) or force_of(scene, state) > 0:
         return
     at = f"at {state.pressure:g} MPa"
     if isinstance(scene, Grip):
@@ -118,19 +136,12 @@ def _require_touched(readings: Readings, state: ChainState) -> None:
             f"the {scene.object} of size = {scene.size:g} mm at place = {scene.place:g} mm is not "
             f"touched {at}: the finger comes within {readings.gap(state):.3g} mm of it."
         )
-    what = {"load_cell": "load cell", "wall": "wall", "held": "hold"}[scene.support]
+    what = {"load_cell": "load cell"}.get(scene.support, scene.support)
     point = "tip" if scene.support == "load_cell" else "finger"
     raise DesignError(
         f"the {what} at distance = {scene.distance:g} mm is not reached {at}: the free {point} "
         f"reaches {-readings.lowest(state):.3g} mm below its place at rest."
     )
-
-
-def _pneumatic_work(path: Path) -> float:
-    """Work of the pressure on the volume from rest to the last state, N mm."""
-    pressures = np.array([state.pressure for state in path.steps])
-    volumes = np.array([state.volume for state in path.steps])
-    return float(trapezoid(pressures, volumes))
 
 
 def _air(readings: Readings, path: Path, flow: float) -> Air:

@@ -25,6 +25,10 @@ SMALL_TURN, SMALL_SHEAR = 1e-5, 1e-4
 Objects are so stiff that larger ones would show the curvature of the chain's motion instead."""
 
 
+LEAST_FORCE = 1e-9
+"""N: what rounding leaves where there is no force."""
+
+
 @dataclass(frozen=True)
 class ShiftedLaw:
     """A law whose piece turns by ``rotation`` (rad) more, and shears by ``shear`` times as much."""
@@ -60,7 +64,7 @@ def force_error(
 ) -> ForceError:
     """Estimated errors of ``force`` in an equilibrium, percent of it; zeros where it is none."""
     value = float(force(state))
-    if not value or unknown == Uncertainty():
+    if abs(value) < LEAST_FORCE or unknown == Uncertainty():
         return ForceError()
     everywhere, root, tip, shear = _dependences(loaded, state, force)
     percent = 100 / abs(value)

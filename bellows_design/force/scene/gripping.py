@@ -7,15 +7,20 @@ from dataclasses import dataclass
 
 from bellows_design.design.scenes.grip import Grip
 from bellows_design.force.chain import grip
+from bellows_design.force.chain.equilibrium import beside
 from bellows_design.force.chain.finger.weight import GRAVITY
 from bellows_design.force.chain.loaded_chain import LoadedChain
 from bellows_design.force.chain.path import Ending, Path
+from bellows_design.force.chain.readings import state_of, unknowns_of
 from bellows_design.force.chain.state import ChainState
 from bellows_design.force.finger_law import Facts
-from bellows_design.force.scene.errors import force_error
+from bellows_design.force.scene.errors import Force, force_error
 
 PULL = grip.Pull(step=0.5)
 """How an object is pulled: the largest force that is met counts."""
+
+SMALL_WAY = 1e-5
+"""mm, of an object: by which the pull's rise is found."""
 
 KEPT = "readings are those of an object that is kept in its place."
 
@@ -54,6 +59,22 @@ def gripping(loaded: LoadedChain, scene: Grip, facts: Facts, state: ChainState) 
         payload_error_percent=_payload_error(found, facts),
         warnings=(*_of_the_state(found, weight, hanging), *_of_the_pull(found)),
     )
+
+
+def with_hanging_object(loaded: LoadedChain, state: ChainState, force: Force) -> Force:
+    """``force``, near ``state``, of an object that moves along the pull until its weight is borne.
+
+    A function of states in which the object keeps its place: what the pull misses there is made up
+    for by a way of the object, to first order.
+    """
+    ahead = PULL.way(state) + SMALL_WAY
+    shift = PULL.direction[0] * ahead, PULL.direction[1] * ahead
+    load = state.load.shifted(shift)
+    moved = state_of(loaded, load, beside(loaded, load, unknowns_of(state), state.history))
+    borne = PULL.force(state)
+    rise = PULL.force(moved) - borne
+    share = (force(moved) - force(state)) / rise if rise else 0.0
+    return lambda other: force(other) - share * (PULL.force(other) - borne)
 
 
 def weight_on_finger(scene: Grip) -> float:

@@ -14,11 +14,11 @@ from bellows_design.force.chain.loaded_chain import LoadedChain
 from bellows_design.force.chain.state import ChainState
 from bellows_design.force.chain.surroundings import LoadPoint
 from bellows_design.force.finger_law import FingerLaw
-from bellows_design.force.result import ForceReading, Point
+from bellows_design.force.result import ForceError, ForceReading, Point
 from bellows_design.force.scene.dead_volume import dead_volume
-from bellows_design.force.scene.errors import force_error
+from bellows_design.force.scene.errors import Force, force_error
 from bellows_design.force.scene.exerted import exerted, force_of
-from bellows_design.force.scene.gripping import Gripping, gripping
+from bellows_design.force.scene.gripping import Gripping, gripping, with_hanging_object
 
 
 @dataclass(frozen=True)
@@ -36,14 +36,12 @@ class Readings:
         state = state if grip is None else grip.state
         facts, loads = self.law.facts, state.loads
         x, z, moment = exerted(state)
-        force = partial(force_of, self.scene)
-        unknown = facts.unknown(state.pressure, loads)
         blocked = isinstance(self.scene, Blocked | Grip)
         stress, stress_error = facts.stress(state.pressure, loads) or (None, None)
         return ForceReading(
             pressure_mpa=state.pressure,
             distance_mm=self.distance(state.load) if isinstance(self.scene, Blocked) else None,
-            force_n=force(state),
+            force_n=force_of(self.scene, state),
             components_n=(x, z),
             moment_n_mm=moment,
             tip_position_mm=state.tip[:2],
@@ -53,7 +51,7 @@ class Readings:
             volume_mm3=self.volume(state),
             max_von_mises_mpa=stress,
             max_von_mises_error_percent=stress_error,
-            error=force_error(self.loaded, state, force, unknown) if blocked else None,
+            error=self._error(state, grip) if blocked else None,
             shape=self._shape(state),
             touched=self._touched(state),
             holds=None if grip is None else grip.holds,
@@ -93,6 +91,14 @@ class Readings:
         """
         blocked = isinstance(self.scene, Blocked) and force_of(self.scene, state) > 0
         return state.tip_stiffness if blocked and not state.contacts else None
+
+    def _error(self, state: ChainState, grip: Gripping | None) -> ForceError:
+        """Estimated errors of the force; an object that hangs gives way until it does again."""
+        force: Force = partial(force_of, self.scene)
+        if grip is not None and grip.holds:
+            force = with_hanging_object(self.loaded, state, force)
+        unknown = self.law.facts.unknown(state.pressure, state.loads)
+        return force_error(self.loaded, state, force, unknown)
 
     def _gripping(self, state: ChainState) -> Gripping | None:
         """Of a grip, what becomes of its object."""
