@@ -9,12 +9,16 @@ error estimate, or a result that depends on another design's, are never taken fo
 outside of the range the material was tested in are a warning: the range is that of the tests, not
 of the material. What cannot be judged is listed, with the reason.
 
+A design may name scenes that it must hold as well (``limits.scenes``): each must be reached and
+stable, keep the limit of the stress under its own load, and a grip must not slip.
+
 Where nothing speaks against a design, the leak test on a slicer's G-code may still (``leak_test``).
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass, replace
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -27,11 +31,12 @@ from printers import PrintabilityReport, RuleResult
 if TYPE_CHECKING:
     from bellows_design.analysis.evaluation import LoadedState
     from bellows_design.analysis.material_range import ReachedStrain
+    from bellows_design.force.result import ForceCurve, SceneResult
 
 REQUIRED_RULES = ("watertight", "airtightness", "minimum_lines", "cross_section")
 """Rules a report must contain: one that was not checked is not a pass."""
 
-Kind = Literal["printability", "convergence", "contact", "stress", "accuracy", "strain"]
+Kind = Literal["printability", "convergence", "contact", "stress", "accuracy", "strain", "scene"]
 
 
 @dataclass(frozen=True)
@@ -89,17 +94,37 @@ class Verdict:
         }
 
 
-def decide(design: Design, report: PrintabilityReport, state: LoadedState) -> Verdict:
+def decide(
+    design: Design,
+    report: PrintabilityReport,
+    state: LoadedState,
+    scenes: Sequence[SceneResult] = (),
+) -> Verdict:
     """The verdict on ``design``.
 
     Args:
         design: States the pressure to be reached (MPa) and the limit of the von Mises stress (MPa).
         report: Printability of its part.
         state: The actuator under pressure; an ``Evaluation`` is one.
+        scenes: Results of the scenes that the design must hold; one that is missing is a reason.
 
     Returns:
         All reasons against the design; approval where there is none.
     """
+    verdict = _by_itself(design, report, state)
+    known = {each.scene: each for each in scenes}
+    reasons = tuple(
+        reason
+        for name in design.limits.scenes
+        for reason in _scene_reasons(design, name, known.get(name))
+    )
+    noted = (text for each in scenes if each.found is not None for text in each.found.warnings)
+    warnings = tuple(dict.fromkeys((*verdict.warnings, *noted)))
+    return replace(verdict, reasons=verdict.reasons + reasons, warnings=warnings)
+
+
+def _by_itself(design: Design, report: PrintabilityReport, state: LoadedState) -> Verdict:
+    """The verdict without any scene."""
     reasons = (
         *_print_reasons(report),
         *_history_reasons(state),
@@ -162,7 +187,7 @@ def _missing_leak_test(why: str) -> Reason:
 def open_question(design: Design, report: PrintabilityReport, state: LoadedState) -> str:
     """What a finer mesh may decide, as text; empty if nothing."""
     estimated = state.error_estimate.max_von_mises_percent is not None
-    if not estimated or not decide(design, report, state).undecided:
+    if not estimated or not _by_itself(design, report, state).undecided:
         return ""
     if state.folded.at_highest_stress:
         return f"at the highest stress {state.folded.text}"
@@ -291,3 +316,50 @@ def _stress_reasons(limit: float, state: LoadedState) -> tuple[Reason, ...]:
         f"{error:.3f} MPa reaches across the limit of {limit:g} MPa: {_remedy(stress, limit)}."
     )
     return (Reason("accuracy", "max_von_mises", stress, limit, "MPa", message),)
+
+
+def _scene_reasons(design: Design, name: str, result: SceneResult | None) -> Iterator[Reason]:
+    """What speaks against a design in one of its scenes."""
+    if result is None or result.found is None:
+        why = "it was not evaluated" if result is None else result.failure.rstrip(".")
+        message = f"The scene {name} has no result: {why}."
+        yield Reason("scene", name, "no result", "a result", "", message)
+        return
+    found = result.found
+    required, reached = design.load.pressure, found.last.pressure_mpa
+    if not found.converged or not reached / required >= 1 - 1e-9:
+        message = f"The scene {name} was reached up to {reached:.4g} MPa: {found.message}"
+        yield Reason("scene", name, reached, required, "MPa", message)
+        return
+    if not found.last.stable:
+        message = f"The finger is not stable in the scene {name} at {required:g} MPa."
+        yield Reason("scene", name, "unstable", "stable", "", message)
+    yield from _scene_stress(design.max_von_mises, found)
+    yield from _slip(found)
+
+
+def _scene_stress(limit: float, found: ForceCurve) -> Iterator[Reason]:
+    """The highest stress under the load of a scene, with its error."""
+    stress, percent = found.last.max_von_mises_mpa, found.last.max_von_mises_error_percent
+    if stress is None or percent is None or not math.isfinite(stress * percent):
+        message = f"The highest von Mises stress in the scene {found.scene} is not known."
+        yield Reason("scene", found.scene, "not known", limit, "MPa", message)
+    elif stress * (1 + percent / 100) > limit:
+        message = (
+            f"The highest von Mises stress in the scene {found.scene} is {stress:.3f} ± "
+            f"{stress * percent / 100:.3f} MPa, not below the limit of {limit:g} MPa."
+        )
+        yield Reason("scene", found.scene, stress, limit, "MPa", message)
+
+
+def _slip(found: ForceCurve) -> Iterator[Reason]:
+    """A grip that does not hold its object."""
+    payload = found.last.largest_payload_g
+    if found.last.holds is not False or payload is None:
+        return
+    mass = getattr(found.content, "mass_g", math.nan)
+    message = (
+        f"The grip slips in the scene {found.scene}: its friction holds {payload:.4g} g of "
+        f"{mass:g} g."
+    )
+    yield Reason("scene", found.scene, payload, mass, "g", message)

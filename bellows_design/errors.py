@@ -19,5 +19,9 @@ class DesignError(BellowsError):
         self.sentences = sentences
 
 
+class UnreachedError(BellowsError):
+    """A load that the solver did not reach, and without which there is no result."""
+
+
 class ClusterError(BellowsError):
     """Workers or their scheduler cannot be reached, or are gone; what they finished is kept."""

@@ -18,6 +18,7 @@ from bellows_design.progress import SILENCE, Progress
 if TYPE_CHECKING:
     from bellows_design.analysis.evaluation import Evaluation, LoadedState
     from bellows_design.approval import Verdict
+    from bellows_design.force.result import SceneResult
     from bellows_design.leak_test.record import LeakTest, LeakTester, Unavailable
     from bellows_design.store.store import Store
     from printers.report import PrintabilityReport
@@ -33,6 +34,7 @@ class Outcome:
         evaluation: The actuator under its design pressure; None if the design was refused before.
         verdict: Approval, or all reasons against it.
         leak_test: What became of the leak test.
+        scenes: The scenes that the design must hold.
         part: The solid as printed and its mesh.
         folder: Where the approved files are; None if the design is refused.
         withdrawn: Folder of an earlier approved export that this refusal took back.
@@ -44,11 +46,14 @@ class Outcome:
     verdict: Verdict
     leak_test: LeakTest
     part: Part = field(repr=False, compare=False)
+    scenes: tuple[SceneResult, ...] = ()
     folder: Path | None = None
     withdrawn: Path | None = None
 
     def to_dict(self) -> dict[str, Any]:
         """Plain values for JSON."""
+        from bellows_design.export.statements import scene_statements
+
         evaluation = self.evaluation
         return {
             "design": self.design.name,
@@ -60,6 +65,7 @@ class Outcome:
             "check": check_dict(self.design, self.report),
             "leak_test": self.leak_test.to_dict(),
             "evaluation": None if evaluation is None else evaluation.to_dict(),
+            **scene_statements(self),
         }
 
 
@@ -129,9 +135,31 @@ def examine(
         verdict = refused_for_want_of_a_slicer(design, report, tester)
         return Outcome(design, report, None, verdict, LeakTest(setting, why=tester.why), part)
     evaluation = _evaluated(design, report, progress, budget, store)
-    verdict = decide(design, report, evaluation)
+    scenes = _scenes(design, evaluation, progress, budget, store)
+    verdict = decide(design, report, evaluation, scenes)
     test = _leak_test(design, part, tester, verdict, progress)
-    return Outcome(design, report, evaluation, with_leak_test(verdict, test), test, part)
+    return Outcome(design, report, evaluation, with_leak_test(verdict, test), test, part, scenes)
+
+
+def _scenes(
+    design: Design,
+    evaluation: Evaluation,
+    progress: Progress,
+    budget: Budget,
+    store: Store | None,
+) -> tuple[SceneResult, ...]:
+    """The scenes that approval must hold, once the pressure is reached without them."""
+    from bellows_design.force.result import SceneResult
+
+    names = design.limits.scenes
+    if not names:
+        return ()
+    if not evaluation.converged:
+        why = "the pressure was not reached without it"
+        return tuple(SceneResult(name, failure=why) for name in names)
+    from bellows_design.force.required_scenes import required_scenes
+
+    return required_scenes(design, progress, budget, store)
 
 
 def _evaluated(

@@ -229,10 +229,9 @@ def sharp_edge_radius(design: Design) -> float:
 
 def _axis(design: Design) -> SlenderAxis:
     """Stations at the root, at every bubble's and every gap's middle, and at the finger's end."""
-    from bellows_design.geometry.ends import finger_length
     from solver import SlenderAxis
 
     bellows = design.bellows
     middles = bellows.bubble_middles
     gaps = (middle + bellows.pitch / 2 for middle in middles[:-1])
-    return SlenderAxis(tuple(sorted((0.0, *middles, *gaps, finger_length(design)))))
+    return SlenderAxis(tuple(sorted((0.0, *middles, *gaps, design.finger_length))))

@@ -19,7 +19,7 @@ import typer
 
 from bellows_design.cli.early_signals import ended_by
 from bellows_design.cli.interruption import ended_in_time, interruption_in, raising_signals
-from bellows_design.errors import BellowsError, ClusterError
+from bellows_design.errors import BellowsError, ClusterError, UnreachedError
 from bellows_design.files.errors import CannotWrite
 
 if TYPE_CHECKING:
@@ -127,7 +127,8 @@ def explained(error: BaseException) -> tuple[str, int]:
 def _status_of_user_error(error: BaseException) -> int | None:
     """The exit status of an error whose sentence is meant for users; None for any other."""
     if isinstance(error, BellowsError):
-        return NOT_SOLVED if isinstance(error, ClusterError) else BAD_INPUT
+        unsolved = isinstance(error, ClusterError | UnreachedError)
+        return NOT_SOLVED if unsolved else BAD_INPUT
     if not isinstance(error, ValueError | RuntimeError):
         return None
     from printers.errors import PrintersError

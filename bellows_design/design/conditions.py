@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Any, Literal
 
-from pydantic import Field, field_validator
+from pydantic import Field, SerializerFunctionWrapHandler, field_validator, model_serializer
 from pydantic_core import PydanticKnownError
 
 from bellows_design.design.lengths import length_field
-from bellows_design.validation.parameters import Parameters
+from bellows_design.validation.parameters import Parameters, require
+from bellows_design.validation.quoting import quoted
 
 ATMOSPHERE = 0.101325
 """MPa. The standard atmosphere: no vacuum pulls more."""
@@ -48,7 +49,8 @@ class Load(Parameters):
 class Limits(Parameters):
     """What an approved design must keep, besides the printer's rules: stress in MPa, room in mm.
 
-    ``leak_test`` says whether the part must pass the leak test on a slicer's G-code as well.
+    ``leak_test`` says whether the part must pass the leak test on a slicer's G-code as well,
+    ``scenes`` names those under whose loads the actuator must hold, too.
     """
 
     max_von_mises: float | None = Field(
@@ -63,3 +65,19 @@ class Limits(Parameters):
     leak_test: LeakTestSetting = Field(
         default="if-available", description="whether a slicer's G-code must pass the leak test"
     )
+    scenes: tuple[str, ...] = Field(
+        default=(), max_length=20, description="names of scenes that approval must hold"
+    )
+
+    @field_validator("scenes", mode="before")
+    @classmethod
+    def _is_a_list_of_names(cls, value: Any) -> tuple[str, ...]:
+        names = isinstance(value, list | tuple) and all(isinstance(each, str) for each in value)
+        require(names, f"limits.scenes is {quoted(value)} but must be a list of names of scenes")
+        return tuple(dict.fromkeys(value))
+
+    @model_serializer(mode="wrap")
+    def _without_empty_scenes(self, handler: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        """Limits without scenes are written as they were before there were any."""
+        table: dict[str, Any] = handler(self)
+        return {key: value for key, value in table.items() if key != "scenes" or value}

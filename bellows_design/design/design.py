@@ -11,7 +11,14 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Self
 
-from pydantic import Field, ValidationError, field_validator, model_validator
+from pydantic import (
+    Field,
+    SerializerFunctionWrapHandler,
+    ValidationError,
+    field_validator,
+    model_serializer,
+    model_validator,
+)
 
 from bellows_design.design.bellows_parameters import BellowsParameters
 from bellows_design.design.conditions import Limits, Load
@@ -20,12 +27,13 @@ from bellows_design.design.features.fingertip import Fingertip
 from bellows_design.design.features.mount import Mount
 from bellows_design.design.indent import Indent
 from bellows_design.design.port import Port
+from bellows_design.design.scenes.scene import BUILT_IN, Scene, check_fits, scenes_of
 from bellows_design.errors import DesignError
 from bellows_design.files.toml_files import toml_table
 from bellows_design.materials.library import load_material, material_at, material_names
 from bellows_design.materials.material import Material
 from bellows_design.validation.parameters import Parameters, require
-from bellows_design.validation.quoting import quoted
+from bellows_design.validation.quoting import did_you_mean, quoted
 from bellows_design.validation.sentences import sentences
 from printers import PrinterProfile, PrintersError, load_profile, profile_from_table
 
@@ -61,6 +69,7 @@ class Design(Parameters):
         load: Design pressure, MPa.
         printer: Name of a printer profile, or a profile; also given as a TOML file.
         limits: Stress in MPa and room in mm that the design must keep.
+        scenes: What may stand around the actuator, by names of one's own; see ``design.scenes``.
 
     Raises:
         DesignError: A value leaves its bounds, or the parts do not fit together; one sentence for
@@ -83,6 +92,9 @@ class Design(Parameters):
         default="prusa_i3", description="name of a printer profile, a TOML file, or a table"
     )
     limits: Limits = Field(default_factory=Limits)
+    scenes: dict[str, Scene] = Field(
+        default_factory=dict, description="what stands around the actuator where it exerts forces"
+    )
 
     def __init__(self, /, **data: Any) -> None:  # "self" may be a key of the file
         try:
@@ -113,6 +125,14 @@ class Design(Parameters):
         ):
             table["material"] = self.material.name
         return tomli_w.dumps(table)
+
+    @property
+    def finger_length(self) -> float:
+        """x of the finger's end, mm: the fingertip's if it has one, else the tendon's."""
+        return self.bellows.length + (0.0 if self.fingertip is None else self.fingertip.length)
+
+    def __hash__(self) -> int:
+        return hash((self.name, self.digest))  # a table of scenes has no hash of its own
 
     @property
     def max_von_mises(self) -> float:
@@ -165,6 +185,11 @@ class Design(Parameters):
         )
         return load_profile(Path(printer)) if is_toml(printer) else printer
 
+    @field_validator("scenes", mode="before")
+    @classmethod
+    def _scenes_of_tables(cls, value: Any) -> dict[str, Scene]:
+        return scenes_of(value)
+
     @field_validator("material", mode="before")
     @classmethod
     def _material_of_library(cls, value: Any) -> Any:
@@ -182,3 +207,22 @@ class Design(Parameters):
         if self.fingertip is not None:
             self.fingertip.check_fits(self.bellows)
         return self
+
+    @model_validator(mode="after")
+    def _scenes_are_known(self) -> Self:
+        for name, scene in self.scenes.items():
+            check_fits(scene, f"scenes.{name}", self.finger_length)
+        known = {**BUILT_IN, **self.scenes}
+        for name in self.limits.scenes:
+            require(
+                name in known,
+                f"limits.scenes names an unknown scene {quoted(name)}"
+                f"{did_you_mean(name, sorted(known))}",
+            )
+        return self
+
+    @model_serializer(mode="wrap")
+    def _without_empty_scenes(self, handler: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        """A design without scenes is written as it was before there were any."""
+        table: dict[str, Any] = handler(self)
+        return {key: value for key, value in table.items() if key != "scenes" or value}

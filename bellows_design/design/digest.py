@@ -38,8 +38,9 @@ FIRST_FIELDS = {
     "material": "model mu alpha yield_strength elongation_at_break",
     "load": "pressure",
     "limits": "max_von_mises cross_section_width cross_section_height",
+    "scenes.*": "kind",
 }
-"""Table -> the fields of the first version, which always count."""
+"""Table -> the fields of its first version, which always count; ``*`` for tables of any name."""
 
 
 def digest_of(design: BaseModel) -> str:
@@ -60,11 +61,17 @@ def _counting(model: BaseModel, dumped: dict[str, Any], table: str) -> dict[str,
         later = name not in FIRST_FIELDS.get(table, "").split()
         if key in LABELS or (later and value == field.get_default(call_default_factory=True)):
             continue
-        if isinstance(value, BaseModel):
-            content[name] = _counting(value, dumped[name], key)
-        else:
-            content[name] = _without_signed_zero(dumped[name])
+        content[name] = _content(value, dumped[name], key)
     return content
+
+
+def _content(value: Any, dumped: Any, table: str) -> Any:
+    """What the digest depends on of one field's ``value``, which gave ``dumped``."""
+    if isinstance(value, BaseModel):
+        return _counting(value, dumped, table)
+    if isinstance(value, dict):
+        return {name: _content(value[name], dumped[name], f"{table}.*") for name in value}
+    return _without_signed_zero(dumped)
 
 
 def _without_signed_zero(content: Any) -> Any:

@@ -38,7 +38,15 @@ def grounds(found: Outcome) -> dict[str, Any]:
         **plain_statement(found.design, found.report),
         "leak_test": found.leak_test.summary(),
         "evaluation": rounded({key: evaluation[key] for key in evaluation if key != "seconds"}),
+        **rounded(scene_statements(found)),
     }
+
+
+def scene_statements(found: Outcome) -> dict[str, Any]:
+    """What a statement says of scenes; nothing for a design that names none."""
+    if not found.design.limits.scenes:
+        return {}
+    return {"scenes": [each.to_dict() for each in found.scenes]}
 
 
 def plain_statement(design: Design, report: PrintabilityReport) -> dict[str, Any]:

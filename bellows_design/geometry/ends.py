@@ -32,12 +32,6 @@ class TipStub:
     centroid: tuple[float, float]
 
 
-def finger_length(design: Design) -> float:
-    """x of the finger's end, mm: the pad's if it has one, else the tendon's."""
-    pad = design.fingertip
-    return design.bellows.length + (0.0 if pad is None else pad.length)
-
-
 def root_length(design: Design) -> float:
     """From the root's face to the middle of the gap before the first bubble, mm.
 
@@ -50,7 +44,7 @@ def root_length(design: Design) -> float:
 def tip_length(design: Design) -> float:
     """From the middle of the gap behind the last bubble to the finger's end, mm."""
     bellows = design.bellows
-    return finger_length(design) - (bellows.bubble_middles[-1] + bellows.pitch / 2)
+    return design.finger_length - (bellows.bubble_middles[-1] + bellows.pitch / 2)
 
 
 def tip_stub(design: Design) -> TipStub:

@@ -10,9 +10,11 @@ from rich.text import Text
 
 from bellows_design.reports.check import check_table
 from bellows_design.reports.evaluation import evaluation_table
+from bellows_design.reports.force.tables import force_tables
 
 if TYPE_CHECKING:
     from bellows_design.approval import Verdict
+    from bellows_design.force.result import SceneResult
     from bellows_design.leak_test.record import LeakTest
     from bellows_design.pipeline import Outcome
 
@@ -22,9 +24,21 @@ def outcome_table(outcome: Outcome) -> Sequence[RenderableType]:
     return [
         *check_table(outcome.design, outcome.report),
         *(() if outcome.evaluation is None else evaluation_table(outcome.evaluation)),
+        *_scenes(outcome.scenes),
         *_leak_test(outcome.leak_test),
         *_verdict(outcome),
     ]
+
+
+def _scenes(results: Sequence[SceneResult]) -> list[RenderableType]:
+    """The force in each of the scenes that approval must hold."""
+    tables: list[RenderableType] = []
+    for each in results:
+        if each.found is None:
+            tables.append(Text(f"scene {each.scene}: {each.failure}", style="bold red"))
+        else:
+            tables += force_tables(each.found)
+    return tables
 
 
 def _leak_test(test: LeakTest) -> list[RenderableType]:

@@ -30,7 +30,7 @@ FIGURES = tuple(
 )
 """Fields of the manifest that are figures of the part."""
 
-COMPUTED = ("evaluation.", "check.rules", "verdict.warnings", "leak_test.")
+COMPUTED = ("evaluation.", "scenes", "check.rules", "verdict.warnings", "leak_test.")
 """Fields whose words and small numbers follow from the libraries."""
 
 SLICED = ("leak_test.", "verdict.warnings", "verdict.not_judged")

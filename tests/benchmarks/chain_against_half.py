@@ -177,7 +177,7 @@ def half_row(design: Design, case: Case, contact: bool = True) -> Row:
     """Solve for half of the finger, and read."""
     found = solve(problem_of(design, case, contact), design.load.pressure, OPTIONS)
     problem = found.problem
-    walls = contact_of(design.bellows, problem.mesh, found.displacement, problem.contacts)
+    walls = contact_of(design.bellows, problem.mesh, found.displacement, problem)
     return {
         "elements": len(problem.mesh.tets),
         "converged": found.converged,

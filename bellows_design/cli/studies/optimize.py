@@ -35,6 +35,7 @@ class GoalOptions:
     stress: float | None = None
     strain: float | None = None
     touching: bool = False
+    least_force: float | None = None
 
     def goal(self, base: Design) -> Goal:
         """Within the design's own limit of the stress if none is given. Raises ``DesignError``."""
@@ -48,7 +49,8 @@ class GoalOptions:
             )
         strain = None if self.strain is None else self.strain / 100
         gap = None if self.touching else LEAST_GAP
-        return Goal(cast("Quantity", self.quantity), most, self.angle, strain, gap)
+        quantity = cast("Quantity", self.quantity)
+        return Goal(quantity, most, self.angle, strain, gap, self.least_force)
 
 
 @dataclass(frozen=True)
@@ -151,6 +153,8 @@ def optimize(
 
     require_working_folder()
     require_address_space(EVALUATION)
+    if sought.least_force is not None and not verify:
+        raise DesignError("--least-force is kept by the verification; leave out --no-verify.")
     if not (math.isfinite(minutes) and 0 < minutes <= LONGEST_MINUTES):
         raise DesignError(
             f"--minutes is {minutes:g} but must lie above 0 and not above {LONGEST_MINUTES:g}."

@@ -46,6 +46,14 @@ def optimize(
         float | None,
         typer.Option(metavar="PERCENT", help="Largest principal strain, for fatigue."),
     ] = None,
+    least_force: Annotated[
+        float | None,
+        typer.Option(
+            metavar="N",
+            help="Least blocked force at the design pressure, less its error; known to the "
+            "verification alone.",
+        ),
+    ] = None,
     touching: Annotated[
         bool, typer.Option("--touching", help="Neighbouring bubbles may touch under pressure.")
     ] = False,
@@ -96,7 +104,7 @@ def optimize(
     from bellows_design.cli.studies.optimize import optimize as search
 
     options = DesignOptions(name, tuple(settings or ()))
-    sought = GoalOptions(quantity.value, angle, stress, strain, touching)
+    sought = GoalOptions(quantity.value, angle, stress, strain, touching, least_force)
     counted = CountOptions(lines, bubbles, indents, gap, passage)
     files = OptimumFiles(output, plot)
     answer(

@@ -99,6 +99,22 @@ def solve(
     raise NoEquilibriumError(f"no equilibrium was found in {MOST_ITERATIONS} iterations")
 
 
+def beside(
+    loaded: LoadedChain, load: LoadPoint, start: Unknowns, history: ContactHistory
+) -> Equilibrium:
+    """Where the tangent at ``start`` leads: the equilibrium beside it, to first order.
+
+    For a chain that differs by little from the one that ``start`` is an equilibrium of.
+
+    Raises:
+        NoEquilibriumError: The tangent is singular.
+    """
+    balance = Balance.of(loaded, load, start, history)
+    missing, holding = _hold(loaded, load, balance, start)
+    goal = _newton_goal(balance, start, missing, holding, None)
+    return Equilibrium(goal, Balance.of(loaded, load, goal, history), goal, holding, 1)
+
+
 def _hold(
     loaded: LoadedChain, load: LoadPoint, balance: Balance, at: Unknowns
 ) -> tuple[Reals, NDArray[np.bool_]]:

@@ -142,9 +142,12 @@ def grip(
     Raises:
         BellowsError: An object reaches into the undeformed finger.
     """
-    pull = pull or Pull()
-    loaded = LoadedChain.of(chain, surroundings)
     closing = follow(chain, surroundings, pressures, jumps=True)
+    return pulled(LoadedChain.of(chain, surroundings), closing, pull or Pull())
+
+
+def pulled(loaded: LoadedChain, closing: Path, pull: Pull) -> Grip:
+    """Pull the objects of ``loaded`` out of the grip that ``closing`` has ended with."""
     if closing.ending:
         return Grip(loaded, closing, pull, (), None, False)
     states, ending = [closing.last], None

@@ -100,7 +100,7 @@ def _carriers(chain: Chain, surroundings: Surroundings) -> tuple[Points, Reals, 
         *((middle, piece.weight) for middle, piece in zip(middles, chain.pieces, strict=True)),
         (chain.length - chain.tip_length / 2, chain.tip_weight),
     ]
-    heavy = [(place, weight) for place, weight in heavy if weight.newtons]
+    heavy = [(place + weight.ahead, weight) for place, weight in heavy if weight.newtons]
     places = [place for place, *_ in loads] + [place for place, _ in heavy] + [chain.length]
     heights = [height for _, height, _ in loads] + [weight.height for _, weight in heavy] + [0.0]
     dead, weights = np.zeros((len(places), 2)), np.zeros((len(places), 2))

@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bellows_design.analysis.error_estimate import error_estimate
+from bellows_design.analysis.whole_actuator import ends_factor
 from bellows_design.budget import DEFAULT, Budget
 from bellows_design.design.design import Design
-from bellows_design.errors import BellowsError
+from bellows_design.errors import UnreachedError
 from bellows_design.force.law.computation.building import Builder, aim_of
 from bellows_design.force.law.computation.continuation import Continuation, Solved
 from bellows_design.force.law.computation.ends import end_pieces, ends_of
@@ -125,7 +126,7 @@ def _at(cell: Continuation, pressure: float) -> Solved:
     """Without a moment. Raises ``BellowsError``."""
     found, reached = cell.from_zero((pressure,))
     if not found:
-        raise BellowsError(f"there is no law of the bubbles: {reached}")
+        raise UnreachedError(f"there is no law of the bubbles: {reached}")
     return found[0]
 
 
@@ -151,7 +152,7 @@ def _evaluated(
     model = "auto" if usual else ModelName.UNIT_CELL.value
     found = evaluated(design, model, progress=progress, budget=budget, store=store)
     if not found.converged:
-        raise BellowsError(f"there is no law of the bubbles: {found.message}")
+        raise UnreachedError(f"there is no law of the bubbles: {found.message}")
     return found
 
 
@@ -178,7 +179,7 @@ def _made(computation: Computation, tolerance: float, progress: Progress) -> Cel
         tip=tip,
         free_rotation=correction.softening * free[-1].point.rotation,
         tolerance=tolerance,
-        stress_factor=correction.stress_factor,
+        stress_factor=correction.stress_factor * ends_factor(computation),
         error=_error(computation, builder, correction, (root, tip)),
         mesh=mesh,
         effort=Effort(cell.factorizations, time.monotonic() - began),
@@ -245,5 +246,5 @@ def _free(cell: Continuation, pressure: float) -> list[Solved]:
     at_rest, _ = cell.from_zero((0.0,))
     loaded, reached = cell.from_zero(tuple(share * pressure for share in FIRST_ROWS[1:]))
     if len(loaded) + 1 < len(FIRST_ROWS):
-        raise BellowsError(f"there is no law of the bubbles: {reached}")
+        raise UnreachedError(f"there is no law of the bubbles: {reached}")
     return [*at_rest, *loaded]

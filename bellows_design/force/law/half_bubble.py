@@ -35,7 +35,8 @@ class CellLaw:
         tip: that of the last bubble's.
         free_rotation: of half a bubble at the design's pressure, rad.
         tolerance: of the interpolated rotation, relative to the free rotation.
-        stress_factor: highest stress on the finest mesh of an evaluation over that on the table's.
+        stress_factor: highest stress on the finest mesh of an evaluation over that on the table's,
+            times that of the ends over the cell's, if they are stressed more.
         error: estimated.
         mesh: on which the table was computed.
         effort: what it took.

@@ -68,6 +68,8 @@ def _verification(found: Verification) -> Iterator[str]:
         yield f"half actuator: {_numbers(found.half)}"
     if found.failure:
         yield f"half actuator: {found.failure}"
+    if found.goal.least_force_n is not None:
+        yield f"blocked force: at least {found.least_force_n:.3g} N with its error"
     if found.holds:
         yield "the best holds: printable, and within its limits with the errors stated"
     for reason in found.verdict.reasons:

@@ -46,6 +46,8 @@ class Goal:
         most_stress_mpa: Limit of the highest von Mises stress including its error.
         least_angle_deg: Required angle; needed unless the angle is maximised.
         most_strain: Limit of the largest principal strain, for fatigue; None without one.
+        least_force_n: Blocked force at the design pressure including its error, in N, that the best
+            must exert; the search does not know of it, the verification does. None without one.
         least_gap_mm: Air that neighbouring bubbles keep between them under pressure; None where
             they may touch.
 
@@ -58,6 +60,7 @@ class Goal:
     least_angle_deg: float | None = None
     most_strain: float | None = None
     least_gap_mm: float | None = LEAST_GAP
+    least_force_n: float | None = None
 
     def __post_init__(self) -> None:
         if self.quantity != "angle" and self.least_angle_deg is None:
@@ -69,6 +72,7 @@ class Goal:
             ("stress limit", self.most_stress_mpa, " MPa"),
             ("angle", self.least_angle_deg, "°"),
             ("strain limit", self.most_strain, ""),
+            ("least force", self.least_force_n, " N"),
         ):
             if value is not None and not (math.isfinite(value) and value > 0):
                 raise DesignError(f"{name} is {value:g}{unit} but must be above 0{unit}.")

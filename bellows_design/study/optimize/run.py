@@ -19,7 +19,12 @@ from bellows_design.study.optimize.front import front
 from bellows_design.study.optimize.point import Point
 from bellows_design.study.optimize.space.passage import filling_seconds
 from bellows_design.study.optimize.stages import Optimization
-from bellows_design.study.optimize.verification import Verification, verified
+from bellows_design.study.optimize.verification import (
+    Verification,
+    blocked,
+    exerted_at_least,
+    verified,
+)
 from solver.errors import MeshingError, SolverError
 
 VERIFYING = 0.2
@@ -27,6 +32,9 @@ VERIFYING = 0.2
 
 MOST_CORRECTIONS = 2
 """So often a best design that does not hold is sought again, within a lower limit."""
+
+MOST_STRENGTHS = 8
+"""Designs whose blocked force is looked at where the best is too weak."""
 
 PAUSE = 2.0
 """s. Least time between two lines of progress."""
@@ -180,7 +188,36 @@ def _verified(
             break
         best = min(kept, key=lambda point: goal.merit(point.values))
         found = verified(best.design, sought, half, progress, budget)
-    return best, found
+    if found.strong:
+        return best, found
+    stronger = strong_point(coordinator, best, progress, budget)
+    if stronger is None:
+        return best, found
+    return stronger, verified(stronger.design, sought, half, progress, budget)
+
+
+def strong_point(
+    coordinator: Coordinator, weak: Point, progress: Progress, budget: Budget
+) -> Point | None:
+    """The best of the other points that keeps the limits and exerts the force asked for.
+
+    The best point of each combination of counts is tried, in the order of their merits, as long as
+    there is time; None if none is strong enough.
+    """
+    goal, tried = coordinator.goal, {weak.choice}
+    kept = (
+        each for each in coordinator.points if each.ordinary and goal.kept(each.values_with_error)
+    )
+    for point in sorted(kept, key=lambda each: goal.merit(each.values)):
+        if coordinator.late or len(tried) > MOST_STRENGTHS:
+            return None
+        if point.choice in tried:
+            continue
+        tried.add(point.choice)
+        force = blocked(point.design, progress, budget)
+        if exerted_at_least(force) >= (goal.least_force_n or 0.0):
+            return point
+    return None
 
 
 @dataclass

@@ -8,6 +8,7 @@ has its own ends.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
@@ -19,6 +20,7 @@ from bellows_design.study.optimize.goal import Goal
 if TYPE_CHECKING:
     from bellows_design.analysis.evaluation import Evaluation, LoadedState
     from bellows_design.approval import Verdict
+    from bellows_design.force.result import ForceCurve, SceneResult
     from printers import PrintabilityReport
 
 ACCURACY_PERCENT = 2.0
@@ -49,6 +51,8 @@ class Verification:
         verdict: By both.
         half: The half actuator; None if it was not asked for, or gave no result.
         failure: Why the half actuator gave no result; empty if it did, or was not asked for.
+        force: Blocked at the design pressure, where the goal asks for a force; else None, and
+            where there is no result.
     """
 
     design: Design
@@ -58,6 +62,17 @@ class Verification:
     verdict: Verdict
     half: Evaluation | None = None
     failure: str = ""
+    force: ForceCurve | None = None
+
+    @property
+    def least_force_n(self) -> float:
+        """What the blocked finger exerts, its estimated error deducted, N; 0 if unknown."""
+        return exerted_at_least(self.force)
+
+    @property
+    def strong(self) -> bool:
+        """Whether it exerts the force that the goal asks for."""
+        return self.least_force_n >= (self.goal.least_force_n or 0.0)
 
     @property
     def stress_with_error_mpa(self) -> float:
@@ -71,7 +86,7 @@ class Verification:
     def holds(self) -> bool:
         """Whether it is approved, and keeps the goal's limits by every model, errors included."""
         kept = all(_keeps(each, self.goal) for each in self._states)
-        return self.verdict.approved and not self.failure and kept
+        return self.verdict.approved and not self.failure and kept and self.strong
 
     @property
     def _states(self) -> list[Evaluation]:
@@ -85,6 +100,16 @@ class Verification:
             "cell": _summary(self.cell),
             "half": None if self.half is None else _summary(self.half),
             "half_failure": self.failure or None,
+            **self._force_dict(),
+        }
+
+    def _force_dict(self) -> dict[str, Any]:
+        """The blocked force, where the goal asks for one."""
+        if self.goal.least_force_n is None:
+            return {}
+        return {
+            "force": None if self.force is None else self.force.summary(),
+            "least_force_n": self.least_force_n,
         }
 
 
@@ -110,6 +135,7 @@ def verified(
     from bellows_design import pipeline
     from bellows_design.approval import open_question
     from bellows_design.evaluation import evaluate
+    from bellows_design.force.required_scenes import required_scenes
 
     def question(state: LoadedState) -> str:
         return open_question(design, report, state)
@@ -123,11 +149,43 @@ def verified(
         budget=budget,
         open_question=question,
     )
-    found = Verification(design, goal, report, cell, verdict_of(design, report, cell))
+    scenes = required_scenes(design, progress, budget) if cell.converged else ()
+    found = Verification(design, goal, report, cell, verdict_of(design, report, cell, scenes))
+    if goal.least_force_n is not None and cell.converged:
+        found = replace(found, force=blocked(design, progress, budget))
     return _with_half(found, progress, budget) if half else found
 
 
-def verdict_of(design: Design, report: PrintabilityReport, state: LoadedState) -> Verdict:
+def blocked(
+    design: Design, progress: Progress = SILENCE, budget: Budget = DEFAULT
+) -> ForceCurve | None:
+    """What a design exerts on a load cell at its pressure; None where there is no result."""
+    from bellows_design.design.scenes.blocked import Blocked
+    from bellows_design.errors import BellowsError
+    from bellows_design.force.curve import force_curve
+    from solver.errors import MeshingError, SolverError
+
+    progress.stage(f"blocked force of {design.name}")
+    asked = (design, Blocked(), (design.load.pressure,))
+    try:
+        return force_curve(*asked, by_distance=False, progress=progress, budget=budget)
+    except (BellowsError, SolverError, MeshingError):
+        return None
+
+
+def exerted_at_least(force: ForceCurve | None) -> float:
+    """A force with its estimated error deducted, N; 0 where it is not known."""
+    if force is None or not force.converged or force.last.error is None:
+        return 0.0
+    return force.last.force_n * (1 - force.last.error.total / 100)
+
+
+def verdict_of(
+    design: Design,
+    report: PrintabilityReport,
+    state: LoadedState,
+    scenes: Sequence[SceneResult] = (),
+) -> Verdict:
     """The verdict of a search, which slices nothing.
 
     The leak test is not judged, as the setting of the design says: one that requires it is not
@@ -138,7 +196,7 @@ def verdict_of(design: Design, report: PrintabilityReport, state: LoadedState) -
 
     setting = design.limits.leak_test
     why = SWITCHED_OFF if setting == "off" else NOT_SLICED
-    return with_leak_test(decide(design, report, state), LeakTest(setting, why=why))
+    return with_leak_test(decide(design, report, state, scenes), LeakTest(setting, why=why))
 
 
 def _with_half(found: Verification, progress: Progress, budget: Budget) -> Verification:

@@ -13,7 +13,6 @@ from bellows_design.analysis.evaluate import evaluate
 from bellows_design.analysis.mesh_sequence import started
 from bellows_design.analysis.models import FULL, HALF, shortened
 from bellows_design.design import Design, load_design, with_overrides
-from bellows_design.geometry.ends import finger_length
 
 PAD = ("fingertip.length=8", "fingertip.width=14", "fingertip.thickness=3")
 FINGER = with_overrides(load_design("finger"), ["load.pressure=0.05"])
@@ -30,10 +29,10 @@ def test_the_short_actuator_and_the_axis_of_all_models_keep_the_fingertip() -> N
     short = shortened(PADDED)
     assert short.fingertip == PADDED.fingertip
     mesh = half(PADDED).finest.problem.mesh
-    assert mesh.nodes[:, 0].max() == pytest.approx(finger_length(short))
+    assert mesh.nodes[:, 0].max() == pytest.approx(short.finger_length)
     for model in (HALF, FULL):
         axis = model.problem(short, mesh).axis
-        assert axis is not None and axis.stations[-1] == finger_length(short)
+        assert axis is not None and axis.stations[-1] == short.finger_length
 
 
 def test_the_rotation_is_that_of_the_fingertips_end() -> None:

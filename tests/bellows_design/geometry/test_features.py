@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from bellows_design.design import Design, load_design, with_overrides
 from bellows_design.errors import DesignError
 from bellows_design.geometry.actuator import full_body, half_body, printed_part
-from bellows_design.geometry.ends import finger_length, root_length, tip_length, tip_stub
+from bellows_design.geometry.ends import root_length, tip_length, tip_stub
 from bellows_design.geometry.fingertip import fingertip_pad
 from bellows_design.geometry.mount import mount_plate
 from bellows_design.geometry.named_solids import NamedSolid
@@ -185,7 +185,7 @@ def test_the_tip_is_the_end_of_the_fingertip_and_nothing_else() -> None:
     for body, width in ((whole, 14), (full, 14), (half, 7)):
         (tip,) = body.faces("tip")
         assert tip.Area() == pytest.approx(width * 3)
-        assert tip.Center().x == pytest.approx(finger_length(design)) == 22
+        assert tip.Center().x == pytest.approx(design.finger_length) == 22
         assert tip.normalAt().toTuple() == pytest.approx((1, 0, 0))
 
 
@@ -229,7 +229,7 @@ def test_root_pieces_and_tip_make_up_the_finger() -> None:
     design = with_overrides(load_design("finger"), PAD)
     pieces = design.bellows.bubble_count * design.bellows.pitch
     total = root_length(design) + pieces + tip_length(design)
-    assert total == pytest.approx(finger_length(design)) == 60
+    assert total == pytest.approx(design.finger_length) == 60
 
 
 def test_a_tip_that_ends_with_its_last_bubble_has_no_stub() -> None:

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from bellows_design.design.bellows_parameters import BellowsParameters
+from bellows_design.design.design import Design
+from bellows_design.geometry.ends import root_length, tip_stub
 
 GRAVITY = 9.80665
 """Standard acceleration of free fall, m/s²."""
@@ -12,10 +14,17 @@ GRAVITY = 9.80665
 
 @dataclass(frozen=True)
 class Weight:
-    """A weight (N) and the height of its centre above the lower side (mm)."""
+    """A weight.
+
+    Attributes:
+        newtons: N.
+        height: of its centre above the lower side, mm.
+        ahead: of its centre beyond the middle of what it is the weight of, mm.
+    """
 
     newtons: float
     height: float
+    ahead: float = 0.0
 
 
 NO_WEIGHT = Weight(0.0, 0.0)
@@ -30,13 +39,12 @@ class Weights:
     tip: Weight = NO_WEIGHT
 
     @classmethod
-    def of(cls, bellows: BellowsParameters, density: float) -> Weights:
+    def of(cls, design: Design, density: float) -> Weights:
         """Weights of a design whose plastic has ``density`` (g/cm³).
 
         Walls that close the channel at both ends are left out.
         """
-        stubs = bellows.length - bellows.bubble_count * bellows.pitch
-        root = bellows.bubble_middles[0] - bellows.pitch / 2
+        bellows, stub = design.bellows, tip_stub(design)
         middle = bellows.tendon_height / 2
         half = [
             _box(bellows.bubble_size, bellows.bubble_height / 2, 0.5),
@@ -46,11 +54,11 @@ class Weights:
         ]
         volume = sum(each for each, _ in half)
         height = sum(each * centre for each, centre in half) / volume
-        newtons = density * 1e-6 * GRAVITY
+        newtons, (x, z) = density * 1e-6 * GRAVITY, stub.centroid
         return cls(
             piece=Weight(volume * newtons, height),
-            root=Weight(_tendon(bellows) * root * newtons, middle),
-            tip=Weight(_tendon(bellows) * (stubs - root) * newtons, middle),
+            root=Weight(_tendon(bellows) * max(0.0, root_length(design)) * newtons, middle),
+            tip=Weight(stub.volume * newtons, z, x - stub.length / 2),
         )
 
 

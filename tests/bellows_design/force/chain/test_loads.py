@@ -50,8 +50,8 @@ def test_small_weights_bend_a_beam_as_in_textbooks() -> None:
 
 
 def test_weights_of_a_design_are_those_of_its_boxes() -> None:
-    bellows = load_design("prototype_1").bellows
-    weights = Weights.of(bellows, 1.2)
+    design = load_design("prototype_1")
+    bellows, weights = design.bellows, Weights.of(design, 1.2)
     bubble = 5 * 20 * 20 - 2 * 17 * 17 - 1.5 * 2 * 9 * 2
     tendon = 12 * 5 - 9 * 2
     assert weights.piece.newtons == pytest.approx(

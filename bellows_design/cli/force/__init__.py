@@ -1,0 +1,1 @@
+"""``bellows force``: its options and its answer."""

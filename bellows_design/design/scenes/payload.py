@@ -1,0 +1,26 @@
+"""A finger that carries a mass."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from bellows_design.design.lengths import Millimetres, length_field
+from bellows_design.design.scenes.fields import Gravity, gravity_field, mass_field
+from bellows_design.validation.parameters import Parameters
+
+
+class Payload(Parameters):
+    """A mass that hangs on the finger's lower side.
+
+    Attributes:
+        mass_g: g.
+        place: From the root along the finger at rest, mm; None for the tip.
+        gravity: Direction of the weight of the mass and of the finger.
+    """
+
+    kind: Literal["payload"] = "payload"
+    mass_g: float = mass_field("mass that hangs on the finger")
+    place: Millimetres | None = length_field(
+        0, 1000, "from the root along the finger at rest; without it the tip", None
+    )
+    gravity: Gravity = gravity_field("down")

@@ -1,0 +1,1 @@
+"""A finger in its scene: what surrounds it, its equilibria, and what is read of them."""

@@ -1,0 +1,1 @@
+"""What a finger exerts: tables, curves and pictures for people."""

@@ -1,0 +1,186 @@
+"""What a finger exerts: closed forms of small pressures, balances of energy, and what cannot be."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pytest
+from linear_finger import BEND, DESIGN, TURN, arms, linear_law
+
+from bellows_design.design.scenes.blocked import Blocked
+from bellows_design.design.scenes.free import Free
+from bellows_design.design.scenes.grip import Grip
+from bellows_design.design.scenes.payload import Payload
+from bellows_design.errors import DesignError
+from bellows_design.force.curve import force_curve
+from bellows_design.force.finger_law import Uncertainty
+from bellows_design.force.result import ForceCurve
+from bellows_design.force.scene.solved import Solved
+from bellows_design.force.section_law import LinearLaw, SectionResponse
+from solver.arrays import Reals
+
+SMALL = 1e-4
+"""MPa: rotations of some 0.01 rad in all, so that squares of them are below 1e-3."""
+
+GRIP = Grip(size=30.0, mass_g=50.0, distance=18.0, place=38.0)
+
+
+def curve(scene: object, *pressures: float, **facts: object) -> ForceCurve:
+    """Of the linear finger."""
+    return force_curve(DESIGN, scene, pressures, linear_law(**facts))  # type: ignore[arg-type]
+
+
+def test_a_blocked_tip_exerts_what_bends_all_pieces_back() -> None:
+    reach = arms()
+    expected = TURN * SMALL * reach.sum() / (BEND * (reach**2).sum())
+    found = curve(Blocked(), SMALL).last
+    assert found.force_n == pytest.approx(expected, rel=1e-3)
+    assert found.components_n == pytest.approx((0, -expected), rel=1e-3)
+    assert found.tip_position_mm[1] == pytest.approx(0, abs=1e-9)
+
+
+def test_its_force_falls_with_the_tips_stiffness_until_the_free_tip_is_reached() -> None:
+    stiffness = 1 / (BEND * (arms() ** 2).sum())
+    found = curve(Blocked(), SMALL)
+    free = curve(Free(), SMALL).last
+    assert found.tip_stiffness_n_per_mm == pytest.approx(stiffness, rel=1e-3)
+    last = found.by_distance[-1]
+    assert last.force_n == 0
+    assert last.distance_mm == pytest.approx(-free.tip_position_mm[1], rel=1e-9)
+    for each in found.by_distance:
+        assert each.distance_mm is not None
+        expected = found.last.force_n - stiffness * each.distance_mm
+        assert each.force_n == pytest.approx(expected, abs=2e-3 * found.last.force_n)
+    triangle = found.last.force_n**2 / stiffness / 2
+    # Ten intervals and one less than half of one beyond: the sum of trapezia is as good.
+    assert found.tip_work_mj == pytest.approx(triangle, rel=2e-2)
+
+
+def test_a_tip_that_is_held_bears_the_couple_that_turns_all_pieces_back() -> None:
+    found = curve(Blocked(support="held"), SMALL).last
+    assert found.moment_n_mm == pytest.approx(-TURN * SMALL / BEND, rel=1e-6)
+    assert found.tip_angle_deg == pytest.approx(0, abs=1e-9)
+
+
+def test_a_wall_at_the_rest_height_bears_what_a_load_cell_bears() -> None:
+    wall, cell = curve(Blocked(support="wall"), 0.1).last, curve(Blocked(), 0.1).last
+    # The wall gives way by a penalty of some micrometres.
+    assert wall.force_n == pytest.approx(cell.force_n, rel=1e-3)
+    assert wall.moment_n_mm == pytest.approx(0, abs=0.05)
+
+
+@pytest.mark.parametrize("scene", [Free(), Blocked(), Blocked(support="held")])
+def test_the_work_of_the_pressure_is_the_energy_stored(scene: Free | Blocked) -> None:
+    solved = Solved.of(DESIGN, scene, (0.1,), linear_law())
+    stored = solved.path.last.stored_energy - solved.path.steps[0].stored_energy
+    assert curve(scene, 0.1).pneumatic_work_mj == pytest.approx(stored, rel=1e-3)
+
+
+def test_a_payload_bends_the_finger_by_its_moments() -> None:
+    """The finger's own weight, with its centre above the lower side, makes it somewhat softer."""
+    found = curve(Payload(mass_g=1e-3), SMALL)
+    free = curve(Free(gravity=(0.0, -1.0)), SMALL)
+    more = free.last.tip_position_mm[1] - found.last.tip_position_mm[1]
+    assert more == pytest.approx(1e-6 * 9.80665 * BEND * (arms() ** 2).sum(), rel=5e-2)
+    assert found.last.force_n == 0 and found.last.error is None
+
+
+def test_the_error_of_a_force_is_that_of_the_rotation_that_makes_it() -> None:
+    unknown = Uncertainty(interpolation=1e-3 * TURN * SMALL, mesh=2e-3 * TURN * SMALL)
+    error = curve(Blocked(), SMALL, rotations=unknown).last.error
+    assert error is not None
+    assert error.interpolation == pytest.approx(0.1, rel=1e-2)
+    assert error.mesh == pytest.approx(0.2, rel=1e-2)
+    assert error.total == pytest.approx(0.3, rel=1e-2)
+    assert error.ends == error.shear == error.neighbours == 0
+
+
+def test_ends_count_by_their_arms() -> None:
+    reach = arms()
+    unknown = Uncertainty(root=1e-5)
+    found = curve(Blocked(), SMALL, rotations=unknown).last
+    expected = 1e-5 * reach[0] / (BEND * (reach**2).sum())
+    assert found.error is not None
+    assert found.error.ends * found.force_n / 100 == pytest.approx(expected, rel=1e-2)
+
+
+def test_a_grip_holds_as_much_as_its_fingers_bear_and_no_more() -> None:
+    found = curve(GRIP, 0.1).last
+    assert found.largest_payload_g is not None and found.holds
+    heavier = replace_mass(GRIP, 1.01 * found.largest_payload_g)
+    lighter = replace_mass(GRIP, 0.99 * found.largest_payload_g)
+    assert curve(heavier, 0.1).last.holds is False
+    assert curve(lighter, 0.1).last.holds is True
+
+
+def replace_mass(scene: Grip, mass_g: float) -> Grip:
+    """The same grip of another mass."""
+    return Grip.model_validate(scene.model_dump() | {"mass_g": mass_g})
+
+
+def test_a_finger_that_touches_its_neighbours_says_so() -> None:
+    assert not curve(Blocked(), 0.02).last.contact
+    assert curve(Blocked(), 0.1).last.contact
+
+
+@pytest.mark.parametrize(
+    ("scene", "pressure", "sentence"),
+    [
+        (
+            Blocked(support="wall", distance=60.0),
+            0.02,
+            r"the wall at distance = 60 mm is not reached at 0\.02 MPa: the free finger reaches "
+            r"16\.\d mm below",
+        ),
+        (Blocked(distance=60.0), 0.02, r"the load cell .* the free tip reaches 16\.\d mm below"),
+        (Blocked(), -0.02, r"not reached at -0\.02 MPa"),
+        (
+            Grip(size=10.0, mass_g=5.0, distance=90.0, place=38.0),
+            0.02,
+            r"the cylinder of size = 10 mm at place = 38 mm is not touched at 0\.02 MPa: the "
+            r"finger comes within 68\.\d mm",
+        ),
+    ],
+)
+def test_what_the_finger_does_not_reach_is_refused(
+    scene: Blocked | Grip, pressure: float, sentence: str
+) -> None:
+    with pytest.raises(DesignError, match=sentence):
+        curve(scene, pressure)
+
+
+@dataclass(frozen=True)
+class ShortLaw(LinearLaw):
+    """A law that ends at 0.03 MPa."""
+
+    def response(self, pressure: float, loads: Reals) -> SectionResponse:
+        """As a linear law's."""
+        if pressure > 0.03:
+            raise DesignError("the law ends here.")
+        return super().response(pressure, loads)
+
+
+def test_a_finger_without_equilibrium_says_so_and_keeps_the_last_good_state() -> None:
+    whole = linear_law()
+    short = replace(whole, piece=ShortLaw(**vars(whole.piece)))
+    found = force_curve(DESIGN, Blocked(), (0.02, 0.04), short)
+    assert not found.converged and found.message == "the law ends here."
+    assert found.curve[0].pressure_mpa == 0.02 and len(found.curve) == 2
+    assert found.last.pressure_mpa == pytest.approx(0.03, abs=1e-4)
+    assert found.last.stable and found.by_distance == ()
+
+
+def test_the_pressures_asked_for_are_the_readings() -> None:
+    pressures = (0.013, 0.02, 0.0731)
+    found = curve(Blocked(), *pressures)
+    assert [each.pressure_mpa for each in found.curve] == pytest.approx(pressures, rel=1e-12)
+    alone = curve(Blocked(), 0.0731)
+    assert alone.last.force_n == pytest.approx(found.last.force_n, rel=1e-9)
+
+
+def test_a_summary_has_no_times_and_no_curves() -> None:
+    found = curve(Blocked(), 0.05)
+    assert {"seconds", "curve", "versions"}.isdisjoint(found.summary())
+    assert found.to_dict()["curve"][-1]["force_n"] == found.summary()["force_n"]
+    assert np.isfinite(found.air.seconds) and replace(found) == found
