@@ -5,6 +5,10 @@ a cubic by values and compliances, between pressures by values and derivatives; 
 are derivatives of one energy,
 
     G(p, M, N) = G(p, 0) + integral of the rotation by M + N e(p, M) + N^2 c(p, M) / 2.
+
+Known is an end without the neighbouring bubble. Where that presses against it, it is stiffer: with
+three bubbles of Prototype 1 at 0.1 MPa both ends together turn back by 29.6 degrees under
+-34.8 N mm, by this law by 33.7.
 """
 
 from __future__ import annotations

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -19,7 +20,13 @@ from bellows_design.force.law.computation.ends import (
     moments_between,
     walked,
 )
-from bellows_design.force.law.computation.short_actuator import EndPoint, SolvedEnds
+from bellows_design.force.law.computation.short_actuator import (
+    EndPoint,
+    Sections,
+    SolvedEnds,
+    normal,
+    tangent,
+)
 from bellows_design.force.law.ends import EndPiece
 from bellows_design.force.law.interpolation.tabulated import TabulatedLaw
 from bellows_design.force.section_law import LinearLaw, SectionResponse
@@ -169,3 +176,25 @@ def test_the_outer_halves_of_a_finger_follow_their_own_laws() -> None:
     assert [piece.law for piece in chain.pieces[-2:]] == [inner, tip]
     assert chain.length == pytest.approx(bellows.length)
     assert [piece.backward for piece in chain.pieces[:2]] == [True, False]
+
+
+def test_sections_tell_how_root_and_tip_turn_and_stretch() -> None:
+    """A slice about the middle and the tip's face, moved as rigid bodies."""
+    places, half, turns, extensions = (5.0, 9.5), 3.0, (0.4, 2.5), (0.2, -0.1)
+    slices = [
+        np.array([[x + dx, 1.0, z] for dx in (-0.2, 0.2) for z in (1.0, 4.0)]) for x in places
+    ]
+    start = np.array([places[0] - half, 0.0])
+    middle = start + (half + extensions[0]) * normal(turns[0])
+    stub = places[1] - places[0] - half
+    end = middle + (half + extensions[1]) * normal(turns[0]) + stub * normal(turns[1])
+    moved = [
+        origin + (part[:, :1] - x) * normal(turn) - part[:, 2:] * tangent(turn)
+        for part, x, origin, turn in zip(slices, places, (middle, end), turns, strict=True)
+    ]
+    nodes, displacement = np.concatenate(slices), np.zeros((8, 3))
+    displacement[:, [0, 2]] = np.concatenate(moved) - nodes[:, [0, 2]]
+    mesh = SimpleNamespace(nodes=nodes)
+    sections = Sections(mesh, np.arange(4), np.arange(4, 8), places, half)  # type: ignore[arg-type]
+    expected = [[turns[0], extensions[0]], [turns[1] - turns[0], extensions[1]]]
+    assert sections.motions(displacement) == pytest.approx(np.array(expected))
