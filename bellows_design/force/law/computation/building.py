@@ -29,6 +29,9 @@ SAFETY = 1.5
 """Factor on the largest error at checks in the error that is stated: at random points the table is
 off by up to 1.37 times as much (`tests/benchmarks/cell_laws.json`)."""
 
+PLACES = (0.0, 0.5)
+"""Of checks, between where neighbours begin to touch and the lowest moment."""
+
 Interval = tuple[float, float]
 """Between two rows, MPa."""
 
@@ -56,7 +59,7 @@ class Builder:
         rows: so far, by pressure.
         known: rows of the table without their states; those of the same pressure in ``rows`` count.
         checks: at pressures between rows.
-        unchecked: intervals between rows without a check.
+        unchecked: intervals between rows without all of the usual checks.
         note: is told what is done.
         deadline: of the monotonic clock, s; nothing is refined after it.
         complete: whether refinement came to its end.
@@ -148,7 +151,7 @@ class Builder:
                 split.append(number)
                 continue
             self.checks += checks
-            if not checks:
+            if len(checks) < len(PLACES):
                 self.unchecked.append((low, high))
         return split
 
@@ -178,8 +181,8 @@ def _points(
 ) -> tuple[Solved, ...]:
     """Midway between rows: where neighbours begin to touch, and where they press each other.
 
-    Each is found from that point of both rows that is nearest to it, relative to where neighbours
-    begin to touch: to pass from one side of that to the other takes many factorizations.
+    Those that are found, each from that point of both rows that is nearest to it, relative to where
+    neighbours begin to touch: to pass from one side of that to the other takes many factorizations.
     """
     pressure = sum(interval) / 2
     onset, (low, _) = table.curves(pressure).origin, table.reach(pressure)
@@ -189,7 +192,7 @@ def _points(
         for each in rows[beside].solved
     ]
     solved: list[Solved] = []
-    for share in (0.0, 0.5):
+    for share in PLACES:
         place = share * (low - onset)
         _, near = min(known, key=lambda each: abs(each[0] - place))
         found = cell.beside(near, pressure, onset + place)

@@ -74,8 +74,9 @@ class SolvedRow:
 
 def walked(cell: Continuation, start: SolvedRow, aim: Aim) -> SolvedRow:
     """From a row's ends on, until the rotation passes those of the aim or no state is found."""
-    down, below = _walk(cell, start.solved[0], aim, -1.0, lambda walk: _low_enough(walk, aim))
-    up, above = _walk(cell, start.solved[-1], aim, 1.0, lambda walk: _high_enough(walk, aim))
+    first, last = start.solved[:2], start.solved[-2:]
+    down, below = _walk(cell, first[::-1], aim, -1.0, lambda walk: _low_enough(walk, aim))
+    up, above = _walk(cell, last, aim, 1.0, lambda walk: _high_enough(walk, aim))
     ends = (start.ends[0] or below, start.ends[1] or above)
     return replace(start.with_solved(*down, *up), ends=ends)
 
@@ -96,13 +97,17 @@ def _high_enough(walk: list[Solved], aim: Aim) -> bool:
 
 def _walk(
     cell: Continuation,
-    start: Solved,
+    known: tuple[Solved, ...],
     aim: Aim,
     direction: float,
     done: Callable[[list[Solved]], bool],
 ) -> tuple[list[Solved], str]:
-    """Points from ``start`` (included) in one direction, and why there are no more."""
-    walk, last = [start], float("inf")
+    """Points from the last of those ``known`` in one direction, and why there are no more.
+
+    That one is included; one before it, if any, tells which steps are short.
+    """
+    walk = [known[-1]]
+    last = abs(known[-1].point.moment - known[0].point.moment) or math.inf
     while not done(walk) and len(walk) < FARTHEST:
         point = walk[-1].point
         usual = min(aim.step / point.compliance, GROWTH * last)
