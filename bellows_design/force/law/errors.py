@@ -13,7 +13,7 @@ class LawError:
 
     Attributes:
         interpolation: of half a bubble between the points of the table: the largest at points that
-            were computed to see it.
+            were computed to see it, times one and a half, and estimates where there are none.
         mesh: of half a bubble, by the mesh: what the last refinement changed at the design's
             pressure, and how much less the correction for it fits where neighbours press each
             other.

@@ -92,7 +92,7 @@ def _step(readings: Readings, state: ChainState) -> float:
     """Of the support, mm."""
     length = readings.design.finger_length
     stiffness = readings.tip_stiffness(state) or math.nan
-    wanted = force_of(readings.scene, state) / stiffness / INTERVALS
+    wanted = abs(force_of(readings.scene, state) / stiffness) / INTERVALS
     if not math.isfinite(wanted):
         return length * LONGEST
     return float(np.clip(wanted, SHORTEST * length, LONGEST * length))
