@@ -47,7 +47,7 @@ def _places(bellows: BellowsParameters, cell: Solution) -> list[Place]:
     reach = bellows.pitch / 2 + shift
     angles = tilt * (2 * np.arange(bellows.bubble_count) + 1)
     steps = reach * np.stack([np.cos(angles), -np.sin(angles)], axis=1)
-    start = np.array([bellows.bubble_middles[0] - bellows.pitch / 2, 0.0])
+    start = np.array([bellows.first_gap_middle, 0.0])
     origins = (
         start + np.cumsum(steps, axis=0) + np.cumsum(np.vstack([0 * steps[:1], steps[:-1]]), axis=0)
     )

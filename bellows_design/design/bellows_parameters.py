@@ -84,6 +84,14 @@ class BellowsParameters(Parameters):
         return min(self.offset, self.length - self.train_length)
 
     @property
+    def first_gap_middle(self) -> float:
+        """x of the middle of the gap before the first bubble, mm.
+
+        Negative, by less than half a gap, where the root is shorter than that.
+        """
+        return self.bubble_middles[0] - self.pitch / 2
+
+    @property
     def bubble_middles(self) -> tuple[float, ...]:
         """x of every bubble's middle plane, mm."""
         first = self.root_length + self.bubble_length / 2

@@ -38,7 +38,7 @@ def root_length(design: Design) -> float:
     Negative, by less than half a gap, where the root is shorter than that.
     """
     bellows = design.bellows
-    return bellows.bubble_middles[0] - bellows.pitch / 2
+    return bellows.first_gap_middle
 
 
 def tip_length(design: Design) -> float:

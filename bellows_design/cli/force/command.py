@@ -69,10 +69,10 @@ def force(
     as_json: AsJson = False,
 ) -> None:
     """Compute what the actuator exerts in a scene: blocked, carrying, gripping."""
-    from bellows_design.cli.force.force import ForceOptions, force_of
+    from bellows_design.cli.force.force import ForceOptions, force_answer
 
     options = ForceOptions(
         DesignOptions(name, tuple(settings or ())), scene, pressure, by_distance, flow, picture,
         plot, BudgetOptions(memory, mesh_seconds, seconds), not no_cache,
     )  # fmt: skip
-    answer(lambda: force_of(options), as_json)
+    answer(lambda: force_answer(options), as_json)

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from bellows_design.cli.answer import DONE, NOT_SOLVED, Answer, unwritten
 from bellows_design.cli.options import BudgetOptions, DesignOptions
@@ -15,6 +17,9 @@ from bellows_design.cli.surroundings.environment import require_working_folder
 from bellows_design.cli.surroundings.memory import EVALUATION, require_address_space
 from bellows_design.cli.surroundings.solving import solving, usual_store
 from bellows_design.errors import DesignError
+
+if TYPE_CHECKING:
+    from bellows_design.force.result import ForceCurve
 
 LEAST_FLOW, MOST_FLOW = 0.01, 10_000.0
 """L/min."""
@@ -45,12 +50,28 @@ class ForceOptions:
         require_plot(self.plot)
 
 
-def force_of(options: ForceOptions) -> Answer:
+def force_answer(options: ForceOptions) -> Answer:
     """Compute the force curve of a design in a scene, and draw what is asked for."""
-    from bellows_design.design.scenes.scene import check_fits, named_scene
+    from bellows_design.reports.force.tables import force_tables
+
+    found = _computed(options)
+    failed = unwritten(*_drawings(options, found))
+    status = DONE if found.converged else NOT_SOLVED
+    return Answer(found.to_dict(), force_tables(found, options.by_distance), status, failed)
+
+
+def _drawings(options: ForceOptions, found: ForceCurve) -> list[Callable[[], None]]:
+    """What draws the files that are asked for."""
     from bellows_design.reports.force.picture import draw_scene
     from bellows_design.reports.force.plot import plot_force
-    from bellows_design.reports.force.tables import force_tables
+
+    asked = ((draw_scene, options.picture), (plot_force, options.plot))
+    return [partial(draw, found, path) for draw, path in asked if path is not None]
+
+
+def _computed(options: ForceOptions) -> ForceCurve:
+    """The force curve; all that can be refused is refused before."""
+    from bellows_design.design.scenes.scene import check_fits, named_scene
 
     require_working_folder()
     require_address_space(EVALUATION)
@@ -64,7 +85,7 @@ def force_of(options: ForceOptions) -> Answer:
     from bellows_design.force.curve import force_curve
 
     with solving() as progress:
-        found = force_curve(
+        return force_curve(
             design,
             scene,
             pressures or (design.load.pressure,),
@@ -74,11 +95,3 @@ def force_of(options: ForceOptions) -> Answer:
             budget=budget,
             store=usual_store(progress) if options.cached else None,
         )
-    writers = [
-        partial(draw, found, path)
-        for draw, path in ((draw_scene, options.picture), (plot_force, options.plot))
-        if path is not None
-    ]
-    failed = unwritten(*writers)
-    status = DONE if found.converged else NOT_SOLVED
-    return Answer(found.to_dict(), force_tables(found, options.by_distance), status, failed)

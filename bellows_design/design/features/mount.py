@@ -56,7 +56,7 @@ class Mount(Parameters):
         return self
 
     def check_fits(self, bellows: BellowsParameters, port: Port) -> None:
-        """Raise ``ValueError`` if the plate hides the boss or the mouth of its socket.
+        """Raise ``ValueError`` if the plate hides boss or socket, or nears the first bubble.
 
         A ``Design``, whose validation calls this, raises ``DesignError`` instead.
         """
@@ -66,6 +66,12 @@ class Mount(Parameters):
         require(
             self.thickness <= most + 1e-9,
             f"mount.thickness = {self.thickness:g} mm exceeds {most:.3g} mm, {what}",
+        )
+        require(
+            foot or bellows.root_length >= bellows.bubble_distance - 1e-9,
+            f"offset = {bellows.offset:g} mm and length = {bellows.length:g} mm leave "
+            f"{bellows.root_length:.3g} mm between a mount of the kind 'flange' and the first "
+            f"bubble; at least bubble_distance = {bellows.bubble_distance:g} mm are needed",
         )
 
     @property

@@ -10,6 +10,6 @@ def dead_volume(bellows: BellowsParameters) -> float:
 
     Both keep their volume; the socket of the port is left out, as it is filled by the tube.
     """
-    root = bellows.bubble_middles[0] - bellows.pitch / 2 - bellows.tendon_thickness
+    root = bellows.first_gap_middle - bellows.tendon_thickness
     area = bellows.channel_width * bellows.channel_height
     return area * (max(0.0, root) - bellows.bubble_distance / 2)

@@ -52,6 +52,11 @@ def test_a_design_with_both_is_written_and_read_again() -> None:
             (*FLANGE, "mount.thickness=8.5"),
             "mount.thickness = 8.5 mm exceeds 8 mm, port.depth: the mouth of the socket.",
         ),
+        (
+            (*FLANGE, "bubble_distance=4", "offset=1.6", "length=70"),
+            "offset = 1.6 mm and length = 70 mm leave 1.6 mm between a mount of the kind 'flange' "
+            "and the first bubble; at least bubble_distance = 4 mm are needed.",
+        ),
         (("fingertip.length=12",), "fingertip.width is missing: width, along y, in mm."),
         ((*PAD, "fingertip.width=21"), "fingertip.width = 21 mm exceeds bubble_width = 20 mm."),
         (

@@ -71,7 +71,7 @@ class Chain:
         had it a neighbour; that at the tip begins likewise.
         """
         weights = weights or Weights()
-        stub = bellows.bubble_middles[0] - bellows.pitch / 2
+        stub = bellows.first_gap_middle
         inner = [law] * (2 * bellows.bubble_count - 2)
         laws = (root or law, *inner, tip or law)
         pieces = (Piece(own, number % 2 == 0, weights.piece) for number, own in enumerate(laws))
