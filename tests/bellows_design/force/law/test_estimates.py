@@ -41,7 +41,7 @@ def test_the_estimate_between_rows_vanishes_for_a_rotation_quadratic_in_the_pres
 
 
 @pytest.mark.parametrize("moments", [9, 17, 33])
-def test_the_estimate_within_rows_is_no_less_than_four_fifths_of_the_error_at_a_kink(
+def test_the_estimate_within_rows_is_four_fifths_of_the_error_at_least(
     moments: int,
 ) -> None:
     row = LAW.row(0.05, np.linspace(-60, 20, moments))
