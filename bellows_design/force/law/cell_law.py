@@ -162,10 +162,12 @@ def _made(computation: Computation, tolerance: float, progress: Progress) -> Cel
     mesh = computation.solutions[0].problem.mesh
     cell = Continuation.of(design, mesh)
     free = _free(cell, design.load.pressure)
-    builder = _built(cell, free, tolerance, progress, began + computation.budget.seconds)
-    progress.stage("section's law: finer meshes and ends")
-    row = builder.rows[free[-1].point.pressure].row
-    correction = Correction.of(computation, row)
+    builder = _begun(cell, free, tolerance, progress, began + computation.budget.seconds)
+    row, corrections = builder.rows[free[-1].point.pressure].row, list[Correction]()
+    progress.stage("section's law: between pressures, and on a finer mesh")
+    builder.refine(beside=[lambda: corrections.append(Correction.of(computation, row))])
+    (correction,) = corrections
+    progress.stage("section's law: ends")
     on_mesh = TabulatedLaw(
         design.bellows.pitch / 2, builder.table, volume_at_rest=free[0].point.volume
     )
@@ -186,14 +188,13 @@ def _made(computation: Computation, tolerance: float, progress: Progress) -> Cel
     )
 
 
-def _built(
+def _begun(
     cell: Continuation, free: list[Solved], tolerance: float, progress: Progress, deadline: float
 ) -> Builder:
-    """The rows."""
+    """The first rows."""
     aim = aim_of(free[-1].point.rotation, tolerance)
     builder = Builder(cell, aim, note=progress.stage, deadline=deadline)
     builder.start(free)
-    builder.refine()
     return builder
 
 

@@ -5,13 +5,16 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 from itertools import pairwise
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 
 from bellows_design.errors import BellowsError
 from bellows_design.force.law.computation.continuation import Continuation, Solved
+from bellows_design.force.law.computation.side_by_side import side_by_side
+from bellows_design.force.law.computation.unchecked import between_rows, within_rows
 from bellows_design.force.law.computation.walking import Aim, SolvedRow, refined, retraced, walked
 from bellows_design.force.law.interpolation.rows import Row
 from bellows_design.force.law.interpolation.table import Table
@@ -21,6 +24,18 @@ if TYPE_CHECKING:
 
 LEAST_SHARE = 1 / 64
 """Of the pressures' range; no row is added between rows that are nearer to each other."""
+
+SAFETY = 2.0
+"""Factor on the largest error at checks in the error that is stated: at random points Prototype 1's
+table is off by up to 1.8 times as much (`tests/benchmarks/cell_laws.json`)."""
+
+PLACES = (0.0, 0.5)
+"""Of checks, between where neighbours begin to touch and the lowest moment."""
+
+Interval = tuple[float, float]
+"""Between two rows, MPa."""
+
+Found = TypeVar("Found")
 
 
 @dataclass(frozen=True)
@@ -36,7 +51,7 @@ class Check:
 
 @dataclass
 class Builder:
-    """Rows of a cell by continuation.
+    """Rows of a cell by continuation, two at a time where the machine has the processors.
 
     Attributes:
         cell: what is solved.
@@ -44,6 +59,7 @@ class Builder:
         rows: so far, by pressure.
         known: rows of the table without their states; those of the same pressure in ``rows`` count.
         checks: at pressures between rows.
+        unchecked: intervals between rows without all of the usual checks.
         note: is told what is done.
         deadline: of the monotonic clock, s; nothing is refined after it.
         complete: whether refinement came to its end.
@@ -54,6 +70,7 @@ class Builder:
     rows: dict[float, SolvedRow] = field(default_factory=dict)
     known: dict[float, Row] = field(default_factory=dict)
     checks: list[Check] = field(default_factory=list)
+    unchecked: list[Interval] = field(default_factory=list)
     note: Callable[[str], None] = lambda _: None
     deadline: float = float("inf")
     complete: bool = False
@@ -68,8 +85,7 @@ class Builder:
         """Rows through points without a moment. Raises ``BellowsError`` for less than two."""
         if len(free) < 2:
             raise BellowsError("the section's law needs equilibria at two pressures at least.")
-        for solved in free:
-            self.add(SolvedRow((solved,)))
+        self.add([SolvedRow((solved,)) for solved in free])
 
     def extend(self, free: Solved, moments: tuple[float, float]) -> None:
         """A row that is known, or a new one, up to moments (N mm), from its point without one."""
@@ -80,49 +96,114 @@ class Builder:
         aim = replace(self.aim, moments=moments)
         self.rows[pressure] = refined(self.cell, walked(self.cell, start, aim), aim)
 
-    def add(self, begun: SolvedRow) -> None:
-        """A row on from the points that are known of it."""
-        pressure = begun.solved[0].point.pressure
-        self.note(f"section's law at {pressure:.4g} MPa")
-        self.rows[pressure] = refined(self.cell, walked(self.cell, begun, self.aim), self.aim)
+    def add(self, begun: Sequence[SolvedRow]) -> None:
+        """Rows on from the points that are known of them."""
+        pressures = [each.row.pressure for each in begun]
+        self.note("section's law at " + ", ".join(f"{each:.4g}" for each in pressures) + " MPa")
+        rows = self._computed([partial(_completed, each, self.aim) for each in begun])
+        self.rows |= dict(zip(pressures, rows, strict=True))
 
     @property
     def worst(self) -> float:
-        """Largest error at the checks, rad."""
-        return max((check.error for check in self.checks), default=0.0)
+        """Largest error, rad: ``SAFETY`` times that at checks, or an estimate where none are."""
+        table = self.table
+        at_checks = SAFETY * max((check.error for check in self.checks), default=0.0)
+        between = (between_rows(table, *interval) for interval in self.unchecked)
+        return max(at_checks, within_rows(table.rows), *between)
 
-    def refine(self) -> None:
-        """Rows between others as long as points between them are not well interpolated."""
+    def refine(self, beside: Sequence[Callable[[], None]] = ()) -> None:
+        """Rows between others as long as points between them are not well interpolated.
+
+        ``beside``: computed at the same time as the first points, with which it has nothing to do.
+        """
         pressures = sorted(self.rows)
         least = LEAST_SHARE * (pressures[-1] - pressures[0])
-        open_intervals = list(pairwise(pressures))
-        while open_intervals and time.monotonic() < self.deadline:
-            low, high = open_intervals.pop(0)
-            middle = (low + high) / 2
-            found = self._checked(middle)
-            worst = max((check.error for check in found[1]), default=0.0)
-            if worst <= self.aim.tolerance or high - low < 2 * least or not found[0]:
-                self.checks += found[1]
-                continue
-            self.add(SolvedRow(tuple(sorted(found[0], key=lambda each: each.point.moment))))
-            open_intervals += [(low, middle), (middle, high)]
-        self.complete = not open_intervals
+        intervals = list(pairwise(pressures))
+        while intervals and time.monotonic() < self.deadline:
+            found = self._between(intervals, beside)
+            split = self._judged(intervals, found, least)
+            if split:
+                self.add([SolvedRow(found[number]) for number in split])
+            intervals = [half for number in split for half in _halves(*intervals[number])]
+            beside = ()
+        for task in beside:
+            task()
+        self.unchecked += intervals
+        self.complete = not intervals
 
-    def _checked(self, pressure: float) -> tuple[list[Solved], list[Check]]:
-        """Points between rows: where neighbours begin to touch, and where they press each other."""
-        table = self.table
-        low, _ = table.reach(pressure)
-        onset = table.curves(pressure).origin
-        near = min(self.rows, key=lambda each: abs(each - pressure))
-        at = self.rows[near].nearest(onset)
-        solved: list[Solved] = []
-        for moment in (onset, (onset + low) / 2):
-            found = self.cell.beside(at, pressure, moment)
-            if isinstance(found, str):
-                break
-            at = found
+    def _between(
+        self, intervals: Sequence[Interval], beside: Sequence[Callable[[], None]]
+    ) -> list[tuple[Solved, ...]]:
+        """Points of every interval, by ascending moment."""
+        table, rows = self.table, dict(self.rows)
+        tasks = [partial(_points, each, table, rows) for each in intervals]
+        return self._computed(tasks, beside)
+
+    def _judged(
+        self, intervals: Sequence[Interval], found: Sequence[tuple[Solved, ...]], least: float
+    ) -> list[int]:
+        """Which intervals need a row; what is known of the others is kept."""
+        table, split = self.table, []
+        for number, (low, high) in enumerate(intervals):
+            checks = [Check(each.point, error_at(table, each.point)) for each in found[number]]
+            worst = max((each.error for each in checks), default=0.0)
+            if worst > self.aim.tolerance and high - low >= 2 * least:
+                split.append(number)
+                continue
+            self.checks += checks
+            if len(checks) < len(PLACES):
+                self.unchecked.append((low, high))
+        return split
+
+    def _computed(
+        self,
+        tasks: Sequence[Callable[[Continuation], Found]],
+        beside: Sequence[Callable[[], None]] = (),
+    ) -> list[Found]:
+        """By cells of their own, so that no result depends on another."""
+        cells = [self.cell.anew() for _ in tasks]
+        found: dict[int, Found] = {}
+
+        def compute(number: int) -> None:
+            found[number] = tasks[number](cells[number])
+
+        side_by_side([*beside, *(partial(compute, number) for number in range(len(tasks)))])
+        self.cell.factorizations += sum(cell.factorizations for cell in cells)
+        return [found[number] for number in range(len(tasks))]
+
+
+def _completed(begun: SolvedRow, aim: Aim, cell: Continuation) -> SolvedRow:
+    return refined(cell, walked(cell, begun, aim), aim)
+
+
+def _points(
+    interval: Interval, table: Table, rows: dict[float, SolvedRow], cell: Continuation
+) -> tuple[Solved, ...]:
+    """Midway between rows: where neighbours begin to touch, and where they press each other.
+
+    Those that are found, each from that point of both rows that is nearest to it, relative to where
+    neighbours begin to touch: to pass from one side of that to the other takes many factorizations.
+    """
+    pressure = sum(interval) / 2
+    onset, (low, _) = table.curves(pressure).origin, table.reach(pressure)
+    known = [
+        (each.point.moment - table.curves(beside).origin, each)
+        for beside in interval
+        for each in rows[beside].solved
+    ]
+    solved: list[Solved] = []
+    for share in PLACES:
+        place = share * (low - onset)
+        _, near = min(known, key=lambda each: abs(each[0] - place))
+        found = cell.beside(near, pressure, onset + place)
+        if not isinstance(found, str):
             solved.append(found)
-        return solved, [Check(each.point, error_at(table, each.point)) for each in solved]
+    return tuple(sorted(solved, key=lambda each: each.point.moment))
+
+
+def _halves(low: float, high: float) -> tuple[Interval, Interval]:
+    middle = (low + high) / 2
+    return (low, middle), (middle, high)
 
 
 def error_at(table: Table, point: SectionPoint) -> float:

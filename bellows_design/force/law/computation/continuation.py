@@ -53,6 +53,10 @@ class Continuation:
         guard = touch_guard(design.bellows, problem)
         return Continuation(problem, lambda solution: guard(solution.state))
 
+    def anew(self) -> Continuation:
+        """One for the same cell that knows nothing yet."""
+        return Continuation(self.problem, self.refusal)
+
     def from_zero(self, pressures: tuple[float, ...]) -> tuple[list[Solved], str]:
         """Without a couple, at pressures (MPa) of one sign from the smallest to the largest one.
 

@@ -5,15 +5,25 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 from bellows_design.force.law.computation.continuation import Continuation, Solved
 from bellows_design.force.law.interpolation.rows import Row, doubt, meeting
+
+if TYPE_CHECKING:
+    from bellows_design.force.law.interpolation.points import SectionPoint
 
 GROWTH = 2.0
 """Largest ratio of a step in the moment to the one before."""
 
 IN_CONTACT = 2
 """So many points with touching neighbours a walk takes at least, to know how stiff they are."""
+
+BEYOND_TOUCH = 1.5
+"""Of the step to where neighbours touch, as far as the last one tells."""
+
+BEYOND_END = 1.4
+"""Of the step to the lowest rotation by the compliance: in contact half bubbles become stiffer."""
 
 FARTHEST = 60
 """Points of a walk in one direction, at most."""
@@ -64,8 +74,9 @@ class SolvedRow:
 
 def walked(cell: Continuation, start: SolvedRow, aim: Aim) -> SolvedRow:
     """From a row's ends on, until the rotation passes those of the aim or no state is found."""
-    down, below = _walk(cell, start.solved[0], aim, -1.0, lambda walk: _low_enough(walk, aim))
-    up, above = _walk(cell, start.solved[-1], aim, 1.0, lambda walk: _high_enough(walk, aim))
+    first, last = start.solved[:2], start.solved[-2:]
+    down, below = _walk(cell, first[::-1], aim, -1.0, lambda walk: _low_enough(walk, aim))
+    up, above = _walk(cell, last, aim, 1.0, lambda walk: _high_enough(walk, aim))
     ends = (start.ends[0] or below, start.ends[1] or above)
     return replace(start.with_solved(*down, *up), ends=ends)
 
@@ -86,21 +97,47 @@ def _high_enough(walk: list[Solved], aim: Aim) -> bool:
 
 def _walk(
     cell: Continuation,
-    start: Solved,
+    known: tuple[Solved, ...],
     aim: Aim,
     direction: float,
     done: Callable[[list[Solved]], bool],
 ) -> tuple[list[Solved], str]:
-    """Points from ``start`` (included) in one direction, and why there are no more."""
-    walk, last = [start], float("inf")
+    """Points from the last of those ``known`` in one direction, and why there are no more.
+
+    That one is included; one before it, if any, tells which steps are short.
+    """
+    walk = [known[-1]]
+    last = abs(known[-1].point.moment - known[0].point.moment) or math.inf
     while not done(walk) and len(walk) < FARTHEST:
         point = walk[-1].point
-        last = min(aim.step / point.compliance, GROWTH * last)
+        usual = min(aim.step / point.compliance, GROWTH * last)
+        last = min(usual, _to_touch(walk), _to_end(point, aim, direction))
         found = cell.beside(walk[-1], point.pressure, point.moment + direction * last)
         if isinstance(found, str):
             return walk, found
         walk.append(found)
     return walk, ""
+
+
+def _to_touch(walk: list[Solved]) -> float:
+    """Step in the moment, N mm, to a little beyond where neighbours touch; infinite if far away.
+
+    A step far beyond takes many times as many factorizations, or leads nowhere.
+    """
+    if len(walk) < 2:
+        return math.inf
+    before, at = (each.point for each in walk[-2:])
+    if before.gap is None or at.gap is None or not 0 < at.gap < before.gap:
+        return math.inf
+    return BEYOND_TOUCH * abs(at.moment - before.moment) * at.gap / (before.gap - at.gap)
+
+
+def _to_end(point: SectionPoint, aim: Aim, direction: float) -> float:
+    """Step of a touching point in the moment, N mm, to a little beyond the lowest rotation."""
+    rest = point.rotation - aim.low
+    if direction > 0 or not point.touches or rest <= 0:
+        return math.inf
+    return BEYOND_END * rest / point.compliance
 
 
 def retraced(cell: Continuation, row: Row, free: Solved) -> SolvedRow:
