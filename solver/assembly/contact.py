@@ -137,6 +137,10 @@ class Contacts:
         share = min(1.0, RESOLUTION * tolerance)
         return max(share * contact.penetration, ROUNDING * self._size)
 
+    def touched(self, state: State, load: float) -> bool:
+        """Whether any contact is active."""
+        return any(pair.touches(state, load) for pair in self._pairs)
+
     def against_rigid(self, state: State, load: float) -> bool:
         """Whether the body touches a rigid one."""
         rigid = (pair for pair in self._pairs if isinstance(pair.contact, RigidBody))
