@@ -13,7 +13,7 @@ which holds as g vanishes (T. A. Laursen, *Computational Contact and Impact Mech
 chapter 5, has the same in other symbols). Between triangles the surface has kinks: a point behind a
 re-entrant one, of which no triangle has a closest point inside, has the distance from the edge or
 corner, and that one's derivatives, with the term A^T (1 - n n^T - a m^-1 a^T) A / g in addition.
-Beyond the rim of the other surface nothing is touched, but for points nearly straight behind it.
+Beyond the rim of the other surface nothing is touched.
 """
 
 from __future__ import annotations
@@ -29,7 +29,9 @@ from solver.assembly.pairs.pair import ContactPair, PlaneUnknowns, at_nodes, at_
 from solver.assembly.state import State
 from solver.kernels.surface_contact import (
     Feet,
+    Flags,
     Numbers,
+    Surface,
     assemble_surface_contact,
     bent_gaps,
     find_feet,
@@ -46,16 +48,19 @@ CANDIDATES = 6
 
 
 class Other(NamedTuple):
-    """The other surface.
+    """The other surface, unknowns ``dofs`` (k, 18) of its triangles, and how deep points count, mm.
 
-    ``triangles`` (k, 6), their ``neighbours`` (k, 3) across the edges, -1 for none, and ``dofs``
-    (k, 18); ``reach``: how deep points count, mm.
+    ``reach`` is that depth.
     """
 
-    triangles: Integers
-    neighbours: Numbers
+    surface: Surface
     dofs: Integers
     reach: float
+
+    @property
+    def triangles(self) -> Integers:
+        """Its triangles (k, 6)."""
+        return self.surface.triangles
 
 
 @dataclass
@@ -80,8 +85,9 @@ class SurfacePair(ContactPair):
         mesh = problem.mesh
         triangles = mesh.triangles(contact.other)
         other = Other(
-            triangles=triangles,
-            neighbours=edge_neighbours(triangles),
+            surface=Surface(
+                triangles, neighbours := edge_neighbours(triangles), rim_of(triangles, neighbours)
+            ),
             dofs=numbering.of_triangles(triangles),
             reach=contact.reach or mesh.edge,
         )
@@ -113,7 +119,7 @@ class SurfacePair(ContactPair):
         """Pairs of triangles and of those across their edges."""
         own, other = np.divmod(pairs, len(self.other.triangles))
         both = _with_neighbours(own, edge_neighbours(self.face.triangles))
-        beyond = _with_neighbours(other, self.other.neighbours)
+        beyond = _with_neighbours(other, self.other.surface.neighbours)
         first = np.repeat(both, beyond.shape[1], axis=1).ravel()
         last = np.tile(beyond, (1, both.shape[1])).ravel()
         usable = (first >= 0) & (last >= 0)
@@ -181,8 +187,7 @@ class SurfacePair(ContactPair):
         normals /= np.linalg.norm(normals, axis=1, keepdims=True)
         candidates = self._candidates(positions, places, normals)
         feet: Feet = find_feet(
-            places, candidates, positions, self.other.triangles, self.other.neighbours,
-            self.other.reach,
+            places, candidates, positions, self.other.surface, self.other.reach
         )  # fmt: skip
         return feet
 
@@ -202,7 +207,7 @@ class SurfacePair(ContactPair):
         near = found < len(centres)
         found = np.where(near, found, 0)
         opposing = np.einsum("pi,pci->pc", normals, across[found]) <= OPPOSING
-        return np.where(near & opposing, found // len(PARTS), -1)
+        return each_once(np.where(near & opposing, found // len(PARTS), -1))
 
     def _numbers(self, feet: Feet, points: Numbers) -> Numbers:
         """Numbers of the pairs of triangles that points belong to."""
@@ -230,6 +235,18 @@ def edge_neighbours(triangles: Integers) -> Numbers:
     one, other = order[same], order[same + 1]
     neighbours[one], neighbours[other] = other // 3, one // 3
     return neighbours.reshape(-1, 3)
+
+
+def rim_of(triangles: Integers, neighbours: Numbers) -> Flags:
+    """Which corners (k, 3) of triangles (k, 6) are ends of an edge without a neighbour."""
+    ends = np.stack([triangles[:, :3], triangles[:, [1, 2, 0]]], axis=2)
+    return np.isin(triangles[:, :3], ends[neighbours < 0])
+
+
+def each_once(numbers: Numbers) -> Numbers:
+    """Numbers (p, c) with those that a row has before replaced by -1."""
+    same = numbers[:, :, None] == numbers[:, None, :]
+    return np.where(np.tril(same, -1).any(axis=2), -1, numbers)
 
 
 def _with_neighbours(triangles: Numbers, neighbours: Numbers) -> Numbers:
