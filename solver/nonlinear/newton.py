@@ -141,7 +141,7 @@ class Newton:
         Once corrections decrease fast, the tangent is that of the state itself and its
         factorization is reused; or, if the path continues ``onward``, the iterations end with a
         small correction by such a tangent. With contact the last correction must not exceed the
-        contacts' ``depth`` nor change much what rigid planes exert, and twice as many iterations
+        contacts' ``depth`` nor change much what rigid bodies exert, and twice as many iterations
         are allowed, for the set of points in contact to converge.
         """
         state = guess
@@ -236,7 +236,7 @@ class Newton:
 
         Stable means that the tangent has one negative pivot for each pressure unknown and no
         more: the equilibrium is a minimum of energy under the constraint of incompressibility. The
-        last tangent tells, of a state nearby; at rigid planes other points may touch there.
+        last tangent tells, of a state nearby; at rigid bodies other points may touch there.
         """
         pressed = self.assembly.contacts.against_rigid(state, self.loading.share(load))
         doubtful = self.system.stable is False or pressed
@@ -340,8 +340,13 @@ class Newton:
         stress = self.assembly.extrapolated_stress(state, increment)
         return replace(moved, geometric_stress=stress)
 
-    def led_by_planes(self, load: float, target: float) -> float:
-        """Longest way of a rigid plane between two fractions of the load, mm."""
+    def passed(self, before: State, load: float, after: State, target: float) -> str:
+        """Why a state at ``target`` cannot follow one at ``load``: bodies passed; else empty."""
+        share = self.loading.share
+        return self.assembly.contacts.passed(before, share(load), after, share(target))
+
+    def led_by_bodies(self, load: float, target: float) -> float:
+        """Longest way of a rigid body between two fractions of the load, mm."""
         share = self.loading.share
         return self.assembly.contacts.way(share(load), share(target))
 

@@ -122,6 +122,32 @@ def test_residual_and_tangent_are_derivatives_of_the_contact_energy() -> None:
         assert abs(action - numerical).max() < 1e-6 * abs(numerical).max()
 
 
+@pytest.mark.parametrize(("gap", "travel", "reach"), [(0.0, 0.5, 0.05), (1.0, 1.4, 0.1)])
+def test_blocks_do_not_pass_through_each_other_in_large_steps(
+    gap: float, travel: float, reach: float
+) -> None:
+    mesh = stack((3, 3, 3), (3, 3, 3), gap)
+    supports = Supports(symmetry=PLANES, prescribed={"upper z1": led(-travel)})
+    contact = replace(TOUCH, penetration=1e-2, reach=reach)
+    solution = solve(Problem(mesh, RUBBER, supports, contacts=(contact,)))
+    (found,) = contact_forces(solution)
+    assert solution.converged and solution.refused_steps > 0
+    stretch = 1 - (travel - gap) / 2
+    assert found.force[2] == pytest.approx(stretch**-2 - stretch, rel=0.05)
+    assert -2e-2 < found.gap < 0
+
+
+def test_a_path_that_only_a_pass_could_continue_says_what_is_in_the_way() -> None:
+    """Less reach than contact of this pressure needs."""
+    supports = Supports(symmetry=PLANES, prescribed={"upper z1": led(-0.6)})
+    contact = replace(TOUCH, penetration=0.1, reach=0.02)
+    options = SolverOptions(smallest_step=0.01)
+    solution = solve(Problem(stack(), RUBBER, supports, contacts=(contact,)), options=options)
+    assert not solution.converged
+    assert "the surface 'upper z0' would pass through the surface 'lower z1'" in solution.message
+    assert 0 < contact_forces(solution)[0].force[2] < 0.2
+
+
 def test_action_is_reaction() -> None:
     mesh = both(bumpy((2, 2, 1), 1), raised(bumpy((3, 2, 1), 2), (0.1, -0.05, 0.9)))
     contact = SurfaceContact("upper z0", "lower z1", 0.3, reach=0.4)
