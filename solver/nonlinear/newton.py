@@ -265,12 +265,16 @@ class Newton:
             return found
         return replace(found, residual=found.residual - (1 - share) * self.fading_force)
 
-    def remaining_force(self, load: float) -> Reals:
-        """Nodal forces (n, 3) of the stage before that are left at a load, N; (0, 3) if none."""
+    def remaining_force(self, load: float) -> tuple[Reals, Reals]:
+        """What is left of the stage before at a load: nodal forces (n, 3), and on the plane (2,).
+
+        In N, on the plane's tilt in N mm; (0, 3) and zeros if there is none.
+        """
         share = 1 - self.loading.share(load)
         if not len(self.fading_force) or share == 0:
-            return np.zeros((0, 3))
-        return share * self.assembly.numbering.expand(self.fading_force)[0]
+            return np.zeros((0, 3)), np.zeros(2)
+        forces, _, plane = self.assembly.numbering.expand(share * self.fading_force)
+        return forces, plane
 
     def _fading_force(self) -> Reals:
         """What keeps the start in equilibrium besides this path's loads (m,), N; empty if nothing.
