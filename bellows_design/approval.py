@@ -10,7 +10,9 @@ outside of the range the material was tested in are a warning: the range is that
 of the material. What cannot be judged is listed, with the reason.
 
 A design may name scenes that it must hold as well (``limits.scenes``): each must be reached and
-stable, keep the limit of the stress under its own load, and a grip must not slip.
+stable, keep the limit of the stress under its own load, and a grip must hold its object, errors
+included. Nothing is approved by a law of the bubbles that is extrapolated or unfinished, or past a
+jump from one equilibrium to another.
 
 Where nothing speaks against a design, the leak test on a slicer's G-code may still (``leak_test``).
 """
@@ -335,7 +337,8 @@ def _scene_reasons(design: Design, name: str, result: SceneResult | None) -> Ite
         message = f"The finger is not stable in the scene {name} at {required:g} MPa."
         yield Reason("scene", name, "unstable", "stable", "", message)
     yield from _scene_stress(design.max_von_mises, found)
-    yield from _slip(found)
+    yield from _grip_reasons(found)
+    yield from _doubts(found)
 
 
 def _scene_stress(limit: float, found: ForceCurve) -> Iterator[Reason]:
@@ -352,14 +355,46 @@ def _scene_stress(limit: float, found: ForceCurve) -> Iterator[Reason]:
         yield Reason("scene", found.scene, stress, limit, "MPa", message)
 
 
-def _slip(found: ForceCurve) -> Iterator[Reason]:
-    """A grip that does not hold its object."""
-    payload = found.last.largest_payload_g
-    if found.last.holds is not False or payload is None:
+def _grip_reasons(found: ForceCurve) -> Iterator[Reason]:
+    """A grip that does not hold its object, or not for sure."""
+    last, scene = found.last, found.scene
+    payload, percent = last.largest_payload_g, last.largest_payload_error_percent
+    if payload is None or percent is None:
         return
     mass = getattr(found.content, "mass_g", math.nan)
-    message = (
-        f"The grip slips in the scene {found.scene}: its friction holds {payload:.4g} g of "
-        f"{mass:g} g."
-    )
-    yield Reason("scene", found.scene, payload, mass, "g", message)
+    if last.holds is False:
+        message = f"The grip slips in the scene {scene}: it holds {payload:.4g} g of {mass:g} g."
+        yield Reason("scene", scene, payload, mass, "g", message)
+    elif last.holds is None:
+        why = " ".join(last.warnings)
+        message = f"No equilibrium with the object's weight is known in the scene {scene}: {why}"
+        yield Reason("scene", scene, "no equilibrium", "an equilibrium", "", message)
+    elif not payload * (1 - percent / 100) >= mass:
+        message = (
+            f"The grip holds at most {payload:.4g} g in the scene {scene}, and the estimated error "
+            f"of {percent:.2g} % reaches across the mass of {mass:g} g."
+        )
+        yield Reason("accuracy", scene, payload, mass, "g", message)
+
+
+def _doubts(found: ForceCurve) -> Iterator[Reason]:
+    """What the numbers of a scene do not stand on."""
+    scene = found.scene
+    if found.extrapolated:
+        message = (
+            f"In the scene {scene} sections bear moments beyond those that the law of the bubbles "
+            "was computed for."
+        )
+        yield Reason("accuracy", scene, "extrapolated", "computed", "", message)
+    if not found.law_complete:
+        message = (
+            f"The law of the bubbles was not computed as finely as asked for in time, and so the "
+            f"errors in the scene {scene} are not known; --seconds gives it more."
+        )
+        yield Reason("accuracy", scene, "unfinished", "finished", "", message)
+    if found.jumped:
+        message = (
+            f"In the scene {scene} the finger jumps to another equilibrium on its way to the "
+            "pressure; which one it comes to is not certain."
+        )
+        yield Reason("scene", scene, "a jump", "no jump", "", message)

@@ -148,9 +148,23 @@ class Design(Parameters):
     def digest(self) -> str:
         """SHA-256 of what is built and decided, as 64 hexadecimal digits.
 
-        Independent of the order of keys, the spelling of numbers, and of names and descriptions.
+        Independent of the order of keys, the spelling of numbers, names and descriptions, and of
+        scenes that ``limits.scenes`` does not name.
         """
-        return digest_of(self)
+        required = {name: self.scenes[name] for name in self.limits.scenes if name in self.scenes}
+        return digest_of(self.model_copy(update={"scenes": required}))
+
+    @property
+    def as_evaluated(self) -> Self:
+        """The design with defaults for all that no evaluation of its bending reads.
+
+        That is what judges or makes the part, and what stands around it. The mount is left out, as
+        a model begins at the root's face.
+        """
+        unread = ("mount", "printer", "limits", "scenes")
+        fields = type(self).model_fields
+        defaults = {name: fields[name].get_default(call_default_factory=True) for name in unread}
+        return self.model_copy(update=defaults)
 
     @field_validator("name")
     @classmethod

@@ -84,6 +84,7 @@ class FingerLaw:
         tip: Of the last half bubble with what the tip adds, likewise.
         facts: What is known besides.
         warnings: Sentences on what makes it less reliable than it looks.
+        complete: Whether it is as fine as asked for; else its time was over.
         from_cache: When it was computed (UTC), where it comes from the store; else empty.
         seconds: Time of its computation, s.
     """
@@ -93,5 +94,6 @@ class FingerLaw:
     tip: SectionLaw | None = None
     facts: Facts = field(default_factory=NoFacts)
     warnings: tuple[str, ...] = ()
+    complete: bool = True
     from_cache: str = ""
     seconds: float = 0.0

@@ -13,11 +13,13 @@ from bellows_design.design.scenes.scene import Scene
 from bellows_design.force.cell_facts import CellFacts
 from bellows_design.force.chain.state import ChainState
 from bellows_design.force.finger_law import FingerLaw
-from bellows_design.force.law.cell_law import CellLaw, cell_law, extended
+from bellows_design.force.law.cell_law import TOLERANCE, CellLaw, cell_law, extended
+from bellows_design.force.law.kept import find, keep_noted, key_of_extension, key_of_law
 from bellows_design.force.scene.solved import Solved
 from bellows_design.progress import Progress
 
 if TYPE_CHECKING:
+    from bellows_design.store.key import Key
     from bellows_design.store.store import Store
 
 MOST_EXTENSIONS = 2
@@ -39,23 +41,51 @@ def solved_with_its_law(
     progress: Progress,
     budget: Budget,
     store: Store | None,
+    law: CellLaw | None = None,
 ) -> Solved:
     """The path of a finger that follows its unit cell's law, extended as far as it is needed.
+
+    ``law`` is that law where it is at hand.
 
     Raises:
         BellowsError, MeshingError: As ``cell_law``.
     """
-    law = cell_law(design, progress=progress, budget=budget, store=store)
+    if law is None:
+        law = cell_law(design, progress=progress, budget=budget, store=store)
+    key = key_of_law(design, TOLERANCE, budget)
     progress.stage("chain")
     solved = Solved.of(design, scene, pressures, finger_law(law))
     for _ in range(MOST_EXTENSIONS):
         beyond = solved.beyond
         if not beyond:
             break
-        law = extended(law, _moments(beyond), _pressures(beyond), progress, budget.seconds)
+        law, key = _extended(law, key, beyond, progress, budget, store)
         progress.stage("chain")
         solved = Solved.of(design, scene, pressures, finger_law(law))
     return solved
+
+
+def _extended(
+    law: CellLaw,
+    key: Key,
+    beyond: Sequence[ChainState],
+    progress: Progress,
+    budget: Budget,
+    store: Store | None,
+) -> tuple[CellLaw, Key]:
+    """The law of ``key`` as far as the states ``beyond`` it need it, and the key of that.
+
+    It is kept where the law is kept that it extends: not where the time was over.
+    """
+    moments, pressures = _moments(beyond), _pressures(beyond)
+    further = key_of_extension(key, moments, pressures)
+    kept = find(store, further, law.design) if store is not None else None
+    if kept is not None:
+        return kept, further
+    found = extended(law, moments, pressures, progress, budget.seconds)
+    if store is not None and found.error.complete and find(store, key, law.design) is not None:
+        keep_noted(store, further, found, progress)
+    return found, further
 
 
 def _moments(states: Sequence[ChainState]) -> tuple[float, float]:
@@ -78,6 +108,7 @@ def finger_law(law: CellLaw) -> FingerLaw:
         tip=law.tip,
         facts=CellFacts(law),
         warnings=() if law.error.complete else (UNFINISHED,),
+        complete=law.error.complete,
         from_cache=law.from_cache,
         seconds=law.effort.seconds,
     )

@@ -68,8 +68,11 @@ class ForceReading:
         error: Estimated errors of the force; None where there is no force.
         shape: x and z of the lower side, from root to tip, mm.
         touched: x and z of the points where objects press, mm.
-        holds: Of a grip, whether its friction holds the object's mass; else None.
-        largest_payload_g: Of a grip, the mass that its friction holds; else None.
+        holds: Of a grip, whether it holds the object: the reading is then that of equilibrium with
+            its weight. None in other scenes, and where no such equilibrium was found.
+        largest_payload_g: Of a grip, the largest mass that is held; else None.
+        largest_payload_error_percent: Its estimated error; None without one.
+        warnings: Sentences on what makes this reading less reliable than it looks.
     """
 
     pressure_mpa: float
@@ -89,6 +92,8 @@ class ForceReading:
     touched: tuple[Point, ...] = ()
     holds: bool | None = None
     largest_payload_g: float | None = None
+    largest_payload_error_percent: float | None = None
+    warnings: tuple[str, ...] = ()
 
     def to_dict(self) -> dict[str, Any]:
         """Plain values for JSON."""
@@ -110,6 +115,8 @@ class ForceReading:
             "touched_mm": [list(point) for point in self.touched],
             "holds": self.holds,
             "largest_payload_g": self.largest_payload_g,
+            "largest_payload_error_percent": self.largest_payload_error_percent,
+            "warnings": list(self.warnings),
         }
 
 
@@ -146,6 +153,9 @@ class ForceCurve:
             None without one.
         air: The air of the stroke.
         warnings: Sentences on what makes the numbers less reliable than they look.
+        extrapolated: Whether sections bear moments that the law was not computed for.
+        law_complete: Whether the law is as fine as asked for; else its time was over.
+        jumped: Whether the finger jumped from one equilibrium to another on its way.
         seconds: Time spent.
         from_cache: When the law was computed (UTC), where it comes from the store; else empty.
     """
@@ -163,6 +173,9 @@ class ForceCurve:
     air: Air
     warnings: tuple[str, ...]
     seconds: Seconds = field(compare=False)
+    extrapolated: bool = False
+    law_complete: bool = True
+    jumped: bool = False
     from_cache: str = field(default="", compare=False)
 
     @property
@@ -189,7 +202,11 @@ class ForceCurve:
             "stable": last.stable,
             "holds": last.holds,
             "largest_payload_g": last.largest_payload_g,
+            "largest_payload_error_percent": last.largest_payload_error_percent,
             "error_estimate": None if last.error is None else last.error.to_dict(),
+            "extrapolated": self.extrapolated,
+            "law_complete": self.law_complete,
+            "jumped": self.jumped,
             "warnings": list(self.warnings),
         }
 

@@ -50,7 +50,7 @@ def _axes(title: str, path: Path, number: int, size: tuple[float, float]) -> Ite
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=size, layout="constrained")
-    figure.suptitle(title)
+    figure.suptitle(title, parse_math=False)  # $ is a sign like others
     yield list(figure.subplots(1, number, squeeze=False)[0])
     with replacing(path) as temporary:
         figure.savefig(temporary, dpi=130, format="png")

@@ -43,9 +43,10 @@ def key_of(
 
     What the meshes were refined for needs no place in it: it decides how many there are, and
     nothing else. The strains of the material's tests are no part of a design's digest, but warn.
+    Nor are limits, printer, mount and scenes: no evaluation reads them.
     """
     asked = {
-        "design": design.digest,
+        "design": design.as_evaluated.digest,
         "valid_strain": design.material.valid_strain,
         "model": model,
         "accuracy_percent": None if accuracy_percent is None else float(accuracy_percent),

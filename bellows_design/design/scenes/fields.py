@@ -41,16 +41,24 @@ def _direction(value: Any) -> Any:
         numbers and all(_is_number(each) for each in value),
         f"gravity is {quoted(value)} but must be {', '.join(DIRECTIONS)} or a direction [x, z]",
     )
-    length = math.hypot(*value)
-    if length == 0:
+    x, z = (float(each) for each in value)
+    largest = max(abs(x), abs(z))
+    if largest == 0:
         return DIRECTIONS["none"]
     # Once more normalized, a unit vector would differ in its last digit.
-    scale = 1.0 if abs(length - 1) < 1e-12 else length
-    return (float(value[0]) / scale, float(value[1]) / scale)
+    if abs(math.hypot(x, z) - 1) < 1e-12:
+        return x, z
+    x, z = x / largest, z / largest  # whose squares neither overflow nor vanish
+    return x / math.hypot(x, z), z / math.hypot(x, z)
 
 
 def _is_number(value: Any) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+    if not isinstance(value, int | float) or isinstance(value, bool):
+        return False
+    try:
+        return math.isfinite(value)
+    except OverflowError:  # an integer beyond all floating-point numbers
+        return False
 
 
 Gravity = Annotated[Direction, BeforeValidator(_direction)]

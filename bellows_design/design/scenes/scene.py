@@ -15,7 +15,7 @@ from bellows_design.design.scenes.grip import Grip
 from bellows_design.design.scenes.payload import Payload
 from bellows_design.errors import DesignError
 from bellows_design.files.toml_files import read_toml
-from bellows_design.validation.quoting import did_you_mean, quoted, quoted_path
+from bellows_design.validation.quoting import did_you_mean, quoted, quoted_path, shown
 from bellows_design.validation.sentences import sentences
 
 Scene = Free | Blocked | Payload | Grip
@@ -31,6 +31,7 @@ BUILT_IN: Mapping[str, Scene] = {"free": Free(), "blocked": Blocked()}
 """Scenes that need no table, unless a design has one of that name."""
 
 MOST_SCENES = 50
+LONGEST_NAME = 64
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_-]{0,63}")
 
 
@@ -90,7 +91,9 @@ def named_scene(name_or_path: str, own: Mapping[str, Scene]) -> tuple[str, Scene
     if name_or_path.lower().endswith(".toml"):
         path = Path(name_or_path)
         table = read_toml(path, name_or_path, "scene")
-        return path.stem, scene_of(table, f"the scene {quoted_path(name_or_path)}")
+        return shown(path.stem, LONGEST_NAME), scene_of(
+            table, f"the scene {quoted_path(name_or_path)}"
+        )
     raise DesignError(
         f"unknown scene {quoted(name_or_path)}{did_you_mean(name_or_path, sorted(known))}"
     )

@@ -20,7 +20,7 @@ from bellows_design.force.chain.surroundings import Surroundings
 LET_GO = 0.5
 """Part of the largest force at which the pull ends."""
 CLOSE = 1e-3
-"""Of a force that is looked for, as part of the largest one."""
+"""To a force that is looked for, as part of it."""
 FINER = 8
 """Steps that take the place of two where the force is largest."""
 MOST_TRIALS = 40
@@ -115,7 +115,7 @@ class Grip:
 
     def _between(self, start: ChainState, end: ChainState, force: float) -> ChainState | None:
         """The state with ``force`` between two neighbouring ones, by bisection."""
-        near = CLOSE * max(self.largest_force, 1e-12)
+        near = CLOSE * max(force, CLOSE * self.largest_force, 1e-12)
         first, last = self.pull.way(start), self.pull.way(end)
         rises = self.pull.force(end) > self.pull.force(start)
         found = end

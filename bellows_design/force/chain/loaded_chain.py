@@ -27,7 +27,8 @@ class LoadedChain:
         chain: the finger.
         surroundings: what acts on it.
         contacts: points of its lower side that objects may touch; the last is the tip's edge.
-        widths: length of finger that every one of them stands for, mm.
+        widths: length of finger that every one of them stands for, mm; at both ends that of
+            others, too, as the tip's edge bears most of what a wall bears.
         carriers: points on which dead forces and weights act, then the tip's lower edge.
         dead: dead forces on the carriers (k, 2), N.
         weights: weights on them (k, 2), N.

@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
+from scipy.integrate import trapezoid
 
 from bellows_design.errors import BellowsError
 from bellows_design.force.chain.balance import Unknowns
@@ -91,7 +92,7 @@ class Path:
         is lost in motion.
         """
         pressures = [state.pressure for state in self.steps]
-        return float(np.trapezoid(pressures, [state.volume for state in self.steps]))
+        return float(trapezoid(pressures, [state.volume for state in self.steps]))
 
 
 def follow(

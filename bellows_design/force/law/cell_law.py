@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time
 from dataclasses import replace
-from datetime import UTC, datetime
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -23,13 +22,12 @@ from bellows_design.force.law.ends import EndPiece
 from bellows_design.force.law.errors import LawError, ends_error
 from bellows_design.force.law.half_bubble import CellLaw, Effort
 from bellows_design.force.law.interpolation.tabulated import TabulatedLaw
-from bellows_design.force.law.kept import find, keep, key_of_law
+from bellows_design.force.law.kept import find, keep_noted, key_of_law
 from bellows_design.progress import SILENCE, Progress
 
 if TYPE_CHECKING:
     from bellows_design.analysis.computation import Computation
     from bellows_design.evaluation import Evaluation
-    from bellows_design.store.key import Key
     from bellows_design.store.store import Store
 
 __all__ = ["CellLaw", "cell_law", "extended"]
@@ -74,7 +72,7 @@ def cell_law(
     computation = _evaluated(design, progress, budget, store).computation
     law = _made(computation, tolerance, progress)
     if computation.in_time and law.error.complete:
-        _keep(store, key, law, progress)
+        keep_noted(store, key, law, progress)
     return law
 
 
@@ -86,8 +84,6 @@ def extended(
     seconds: float = DEFAULT.seconds,
 ) -> CellLaw:
     """The law with a table that goes further, as far as there are equilibria.
-
-    It is not kept.
 
     Args:
         law: what there is.
@@ -128,16 +124,6 @@ def _at(cell: Continuation, pressure: float) -> Solved:
     if not found:
         raise UnreachedError(f"there is no law of the bubbles: {reached}")
     return found[0]
-
-
-def _keep(store: Store | None, key: Key, law: CellLaw, progress: Progress) -> None:
-    """Keep a law, or note that it could not be."""
-    from bellows_design.store.store import written
-
-    try:
-        keep(store, key, replace(law, from_cache=written(datetime.now(UTC))))
-    except OSError as error:
-        progress.note(f"the section's law is not kept: {error}")
 
 
 def _evaluated(

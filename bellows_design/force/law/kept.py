@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict
+from dataclasses import asdict, replace
+from datetime import UTC, datetime
 from typing import TYPE_CHECKING
 
 from bellows_design.budget import Budget
 from bellows_design.design.design import Design
 from bellows_design.force.law.half_bubble import CellLaw
+from bellows_design.progress import Progress
 from bellows_design.store.key import Key, plain, present_surroundings
 from bellows_design.store.store import LAWS, Store
 from bellows_design.store.values import Arrays, restored
@@ -23,12 +25,23 @@ if TYPE_CHECKING:
 def key_of_law(design: Design, tolerance: float, budget: Budget) -> Key:
     """What the law of a design is found by."""
     asked = {
-        "design": design.digest,
+        "design": design.as_evaluated.digest,
         "valid_strain": design.material.valid_strain,
         "tolerance": float(tolerance),
         "budget": {name: float(limit) for name, limit in asdict(budget).items()},
     }
     return Key(plain(asked), present_surroundings())
+
+
+def key_of_extension(
+    key: Key, moments: tuple[float, float], pressures: tuple[float, float] | None
+) -> Key:
+    """What a law is found by that is the one of ``key``, extended to these moments.
+
+    By itself, so that what a scene is told does not depend on scenes that were asked for before.
+    """
+    asked = {"law": key.asked, "moments": moments, "pressures": pressures}
+    return Key(plain(asked), key.surroundings)
 
 
 def find(store: Store | None, key: Key, design: Design) -> CellLaw | None:
@@ -48,3 +61,13 @@ def keep(store: Store | None, key: Key, law: CellLaw) -> None:
     arrays: Arrays = {}
     values = {"law": plain_record(law, arrays, {Design: lambda _: None})}
     store.of_kind(LAWS).keep_record(key, values, arrays)
+
+
+def keep_noted(store: Store | None, key: Key, law: CellLaw, progress: Progress) -> None:
+    """Keep a law with the present time, or note that it could not be."""
+    from bellows_design.store.store import written
+
+    try:
+        keep(store, key, replace(law, from_cache=written(datetime.now(UTC))))
+    except OSError as error:
+        progress.note(f"the section's law is not kept: {error}")

@@ -6,9 +6,10 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.integrate import trapezoid
 
 from bellows_design.design.scenes.blocked import Blocked
-from bellows_design.force.chain.path import Path, follow_loads
+from bellows_design.force.chain.path import Ending, Path, follow_loads
 from bellows_design.force.chain.state import ChainState
 from bellows_design.force.chain.surroundings import LoadPoint
 from bellows_design.force.result import ForceReading
@@ -46,7 +47,7 @@ def moved_away(readings: Readings, state: ChainState) -> Distances:
     found = tuple(readings.of(each) for each in states)
     forces = np.array([-each.components_n[1] for each in found])
     places = np.array([each.distance_mm for each in found], dtype=float)
-    return Distances(found, float(np.trapezoid(forces, places)), warnings)
+    return Distances(found, float(trapezoid(forces, places)), warnings)
 
 
 def _states(readings: Readings, start: ChainState) -> tuple[list[ChainState], tuple[str, ...]]:
@@ -70,20 +71,28 @@ def _jumps(readings: Readings, path: Path) -> list[str]:
     """A sentence for each branch that ended."""
     said = []
     for each in (*path.jumps, *filter(None, [path.ending])):
-        what = "snaps away, and it is not known to where"
-        if each.beyond is not None:
-            stays = presses(readings.scene, each.beyond)
-            what = "jumps to another equilibrium on its support" if stays else "snaps off it"
         where = f"{readings.distance(each.load):.3g} mm"
-        said.append(f"as its support moves away, at a distance of {where}, the finger {what}.")
+        what = _ended(readings, each)
+        said.append(f"as its support moves away, at a distance of {where}, {what}.")
     return said
+
+
+def _ended(readings: Readings, each: Ending) -> str:
+    """What the finger does where a branch ends, or why it is not known."""
+    if each.beyond is not None:
+        stays = presses(readings.scene, each.beyond)
+        what = "jumps to another equilibrium on its support" if stays else "snaps off it"
+        return f"the finger {what}"
+    if each.cause in {"law", "no equilibrium"}:
+        return f"the curve ends: {each.sentence.rstrip('.')}"
+    return "the finger snaps away, and it is not known to where"
 
 
 def _step(readings: Readings, state: ChainState) -> float:
     """Of the support, mm."""
     length = readings.design.finger_length
     stiffness = readings.tip_stiffness(state) or math.nan
-    wanted = force_of(readings.scene, state) / stiffness / INTERVALS
+    wanted = abs(force_of(readings.scene, state) / stiffness) / INTERVALS
     if not math.isfinite(wanted):
         return length * LONGEST
     return float(np.clip(wanted, SHORTEST * length, LONGEST * length))

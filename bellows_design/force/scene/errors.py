@@ -25,6 +25,10 @@ SMALL_TURN, SMALL_SHEAR = 1e-5, 1e-4
 Objects are so stiff that larger ones would show the curvature of the chain's motion instead."""
 
 
+LEAST_FORCE = 1e-9
+"""N: what rounding leaves where there is no force."""
+
+
 @dataclass(frozen=True)
 class ShiftedLaw:
     """A law whose piece turns by ``rotation`` (rad) more, and shears by ``shear`` times as much."""
@@ -59,8 +63,8 @@ def force_error(
     loaded: LoadedChain, state: ChainState, force: Force, unknown: Uncertainty
 ) -> ForceError:
     """Estimated errors of ``force`` in an equilibrium, percent of it; zeros where it is none."""
-    value = force(state)
-    if not value or unknown == Uncertainty():
+    value = float(force(state))
+    if abs(value) < LEAST_FORCE or unknown == Uncertainty():
         return ForceError()
     everywhere, root, tip, shear = _dependences(loaded, state, force)
     percent = 100 / abs(value)
@@ -86,7 +90,7 @@ def _dependences(
         for turns in (every, first, last)
     ]
     stiffer = force(_again(loaded, state, 0 * every, shear=1 - SMALL_SHEAR)) - value
-    return by_turn[0], by_turn[1], by_turn[2], stiffer / SMALL_SHEAR
+    return float(by_turn[0]), float(by_turn[1]), float(by_turn[2]), float(stiffer / SMALL_SHEAR)
 
 
 def _again(loaded: LoadedChain, state: ChainState, turns: Reals, shear: float = 1.0) -> ChainState:

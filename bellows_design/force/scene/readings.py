@@ -10,20 +10,15 @@ from bellows_design.design.design import Design
 from bellows_design.design.scenes.blocked import Blocked
 from bellows_design.design.scenes.grip import Grip
 from bellows_design.design.scenes.scene import Scene
-from bellows_design.force.chain.finger.weight import GRAVITY
-from bellows_design.force.chain.grip import Pull, pulled
 from bellows_design.force.chain.loaded_chain import LoadedChain
-from bellows_design.force.chain.path import Path
 from bellows_design.force.chain.state import ChainState
 from bellows_design.force.chain.surroundings import LoadPoint
 from bellows_design.force.finger_law import FingerLaw
-from bellows_design.force.result import ForceReading, Point
+from bellows_design.force.result import ForceError, ForceReading, Point
 from bellows_design.force.scene.dead_volume import dead_volume
-from bellows_design.force.scene.errors import force_error
+from bellows_design.force.scene.errors import Force, force_error
 from bellows_design.force.scene.exerted import exerted, force_of
-
-PULL = Pull(step=0.5)
-"""How an object is pulled: the largest force that is met counts."""
+from bellows_design.force.scene.gripping import Gripping, gripping, with_hanging_object
 
 
 @dataclass(frozen=True)
@@ -37,17 +32,16 @@ class Readings:
 
     def of(self, state: ChainState) -> ForceReading:
         """The record of ``state``; of a grip once the object's weight pulls, if it is held."""
-        state, holds, payload = self._gripping(state)
+        grip = self._gripping(state)
+        state = state if grip is None else grip.state
         facts, loads = self.law.facts, state.loads
         x, z, moment = exerted(state)
-        force = partial(force_of, self.scene)
-        unknown = facts.unknown(state.pressure, loads)
         blocked = isinstance(self.scene, Blocked | Grip)
         stress, stress_error = facts.stress(state.pressure, loads) or (None, None)
         return ForceReading(
             pressure_mpa=state.pressure,
             distance_mm=self.distance(state.load) if isinstance(self.scene, Blocked) else None,
-            force_n=force(state),
+            force_n=force_of(self.scene, state),
             components_n=(x, z),
             moment_n_mm=moment,
             tip_position_mm=state.tip[:2],
@@ -57,11 +51,13 @@ class Readings:
             volume_mm3=self.volume(state),
             max_von_mises_mpa=stress,
             max_von_mises_error_percent=stress_error,
-            error=force_error(self.loaded, state, force, unknown) if blocked else None,
+            error=self._error(state, grip) if blocked else None,
             shape=self._shape(state),
             touched=self._touched(state),
-            holds=holds,
-            largest_payload_g=payload,
+            holds=None if grip is None else grip.holds,
+            largest_payload_g=None if grip is None else grip.payload_g,
+            largest_payload_error_percent=None if grip is None else grip.payload_error_percent,
+            warnings=() if grip is None else grip.warnings,
         )
 
     def distance(self, load: LoadPoint) -> float:
@@ -96,25 +92,19 @@ class Readings:
         blocked = isinstance(self.scene, Blocked) and force_of(self.scene, state) > 0
         return state.tip_stiffness if blocked and not state.contacts else None
 
-    def _gripping(self, state: ChainState) -> tuple[ChainState, bool | None, float | None]:
-        """The state under the object's weight, whether it is held, and the largest mass (g).
+    def _error(self, state: ChainState, grip: Gripping | None) -> ForceError:
+        """Estimated errors of the force; an object that hangs gives way until it does again."""
+        force: Force = partial(force_of, self.scene)
+        if grip is not None and grip.holds:
+            force = with_hanging_object(self.loaded, state, force)
+        unknown = self.law.facts.unknown(state.pressure, state.loads)
+        return force_error(self.loaded, state, force, unknown)
 
-        Where the closed finger pushes the object towards its root by more than the weight, the
-        object keeps its place.
-        """
+    def _gripping(self, state: ChainState) -> Gripping | None:
+        """Of a grip, what becomes of its object."""
         if not isinstance(self.scene, Grip):
-            return state, None, None
-        fingers, mass = self.scene.fingers, self.scene.mass_g
-        found = pulled(self.loaded, Path((state,), (state,), None), PULL)
-        hanging = None if self.drawn_in(state) > 0 else found.under(_weight(self.scene))
-        grams = 1e3 * fingers * found.largest_force / GRAVITY
-        return hanging or state, grams >= mass, grams
-
-    def drawn_in(self, state: ChainState) -> float:
-        """What a closed finger pushes an object towards its root with, beyond its weight, N."""
-        if not isinstance(self.scene, Grip):
-            return 0.0
-        return PULL.force(state) - _weight(self.scene)
+            return None
+        return gripping(self.loaded, self.scene, self.law.facts, state)
 
     def _shape(self, state: ChainState) -> tuple[Point, ...]:
         """The lower side, about every mm."""
@@ -125,8 +115,3 @@ class Readings:
     def _touched(self, state: ChainState) -> tuple[Point, ...]:
         points = tuple(point.position for point in state.contacts)
         return (*points, state.tip[:2]) if any(state.held_force) else points
-
-
-def _weight(scene: Grip) -> float:
-    """Of the object, on every finger, N."""
-    return 1e-3 * GRAVITY * scene.mass_g / scene.fingers

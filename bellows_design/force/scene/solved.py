@@ -52,7 +52,7 @@ class Solved:
         started = time.perf_counter()
         chain = chain_of(design, law)
         surroundings = surroundings_of(scene, design.finger_length)
-        path = follow(chain, surroundings, _with_steps(pressures), jumps=True)
+        path = follow(chain, surroundings, _with_steps(pressures)[0], jumps=True)
         path = until_lost(scene, path)
         loaded = LoadedChain.of(chain, surroundings)
         seconds = time.perf_counter() - started
@@ -101,7 +101,9 @@ class Solved:
     @property
     def states(self) -> tuple[ChainState, ...]:
         """At the pressures asked for, and the last good one where the path ended before."""
-        asked = [s for s in self.path.states if np.isclose(s.pressure, self.pressures).any()]
+        _, places = _with_steps(self.pressures)
+        reached = self.path.states
+        asked = [reached[place] for place in places if place < len(reached)]
         return (*asked, self.path.last) if self.path.ending else tuple(asked)
 
 
@@ -114,11 +116,13 @@ def chain_of(design: Design, law: FingerLaw) -> Chain:
     return replace(chain, tip_length=stub.length, tip_height=stub.height)
 
 
-def _with_steps(pressures: Sequence[float]) -> list[float]:
-    """The pressures, and others between them that make a stroke of enough steps."""
-    longest, found, last = abs(pressures[-1]) / STROKE_STEPS, [], 0.0
+def _with_steps(pressures: Sequence[float]) -> tuple[list[float], list[int]]:
+    """The pressures with others between them that make a stroke of enough steps; their places."""
+    longest, last = abs(pressures[-1]) / STROKE_STEPS, 0.0
+    found, places = list[float](), list[int]()
     for pressure in pressures:
         count = max(1, int(np.ceil(abs(pressure - last) / longest - 1e-9)))
         found += [*np.linspace(last, pressure, count + 1)[1:-1].tolist(), pressure]
+        places.append(len(found) - 1)
         last = pressure
-    return found
+    return found, places

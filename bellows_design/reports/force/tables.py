@@ -20,7 +20,7 @@ def force_tables(found: ForceCurve, by_distance: bool = False) -> Sequence[Rende
     The curve over the distance of the support only if ``by_distance`` asks for it.
     """
     title = f"{found.design.name}: {found.scene}"
-    table = Table(title=title, title_justify="left", box=SIMPLE, show_header=False)
+    table = Table(title=Text(title), title_justify="left", box=SIMPLE, show_header=False)
     for name, value in (_results(found) | _stroke(found) | _effort(found)).items():
         table.add_row(name, Text(value))
     curves = [_curve(found.curve)] if len(found.curve) > 1 else []
@@ -41,9 +41,8 @@ def _results(found: ForceCurve) -> dict[str, str]:
             "along (x, z)": f"({x:.3g}, {z:.3g}) N",
             "moment at the tip's lower edge": f"{last.moment_n_mm:.4g} N mm",
         }
-    if last.holds is not None and last.largest_payload_g is not None:
-        held = "holds" if last.holds else "SLIPS"
-        rows["grip"] = f"{held}; largest payload {last.largest_payload_g:.4g} g"
+    if last.largest_payload_g is not None:
+        rows["grip"] = _grip(last)
     x, z = last.tip_position_mm
     stress = last.max_von_mises_mpa
     return rows | {
@@ -52,6 +51,14 @@ def _results(found: ForceCurve) -> dict[str, str]:
         "highest von Mises stress": "not known" if stress is None else f"{stress:.4g} MPa",
         "stable": "yes" if last.stable else "NO",
     }
+
+
+def _grip(last: ForceReading) -> str:
+    """Whether the object is held, and what would be."""
+    held = {True: "holds", False: "SLIPS", None: "NOT KNOWN TO HOLD"}[last.holds]
+    payload, percent = last.largest_payload_g, last.largest_payload_error_percent
+    error = "" if percent is None else f" (± {_percent(percent)} % estimated)"
+    return f"{held}; largest payload {payload:.4g} g{error}"
 
 
 def _percent(error: float) -> str:

@@ -20,6 +20,7 @@ from bellows_design.study.optimize.goal import Goal
 if TYPE_CHECKING:
     from bellows_design.analysis.evaluation import Evaluation, LoadedState
     from bellows_design.approval import Verdict
+    from bellows_design.force.law.half_bubble import CellLaw
     from bellows_design.force.result import ForceCurve, SceneResult
     from printers import PrintabilityReport
 
@@ -149,24 +150,46 @@ def verified(
         budget=budget,
         open_question=question,
     )
-    scenes = required_scenes(design, progress, budget) if cell.converged else ()
+    asked = cell.converged and (goal.least_force_n is not None or design.limits.scenes)
+    law = law_of(design, progress, budget) if asked else None
+    scenes = required_scenes(design, progress, budget, law=law) if cell.converged else ()
     found = Verification(design, goal, report, cell, verdict_of(design, report, cell, scenes))
-    if goal.least_force_n is not None and cell.converged:
-        found = replace(found, force=blocked(design, progress, budget))
+    if goal.least_force_n is not None and law is not None:
+        found = replace(found, force=blocked(design, progress, budget, law))
     return _with_half(found, progress, budget) if half else found
 
 
-def blocked(
+def law_of(
     design: Design, progress: Progress = SILENCE, budget: Budget = DEFAULT
+) -> CellLaw | None:
+    """The law that all scenes of a design share; None where there is none."""
+    from bellows_design.force.law.cell_law import cell_law
+    from bellows_design.force.required_scenes import FAILURES
+
+    progress.stage(f"section's law of {design.name}")
+    try:
+        return cell_law(design, progress=progress, budget=budget)
+    except FAILURES:
+        return None
+
+
+def blocked(
+    design: Design,
+    progress: Progress = SILENCE,
+    budget: Budget = DEFAULT,
+    law: CellLaw | None = None,
 ) -> ForceCurve | None:
-    """What a design exerts on a load cell at its pressure; None where there is no result."""
+    """What a design exerts on a load cell at its pressure; None where there is no result.
+
+    ``law`` is that of its unit cell where it is at hand.
+    """
     from bellows_design.design.scenes.blocked import Blocked
     from bellows_design.errors import BellowsError
     from bellows_design.force.curve import force_curve
     from solver.errors import MeshingError, SolverError
 
     progress.stage(f"blocked force of {design.name}")
-    asked = (design, Blocked(), (design.load.pressure,))
+    asked = (design, Blocked(), (design.load.pressure,), law)
     try:
         return force_curve(*asked, by_distance=False, progress=progress, budget=budget)
     except (BellowsError, SolverError, MeshingError):

@@ -44,6 +44,18 @@ def test_a_blocked_finger_answers_with_all_that_is_promised(bellows: Bellows) ->
     assert found["by_distance"][0]["force_n"] == pytest.approx(found["force_n"])
 
 
+@pytest.mark.parametrize("stem", ["a$\\frac{$b", "[bold]scene", "a\x1b[31mb"])
+def test_a_files_name_is_shown_as_it_is(stem: str, bellows: Bellows, tmp_path: Path) -> None:
+    file, picture = tmp_path / f"{stem}.toml", tmp_path / "x.png"
+    file.write_text('kind = "blocked"\n')
+    status, out, _ = bellows(
+        "force", "prototype_1", "--scene", str(file), "--picture", str(picture),
+        "--pressure", "0.05",
+    )  # fmt: skip
+    assert status == 0 and picture.stat().st_size > 1000
+    assert f"prototype_1: {stem}".replace("\x1b", "?") in out
+
+
 KINDS = {
     "lying": 'kind="free", gravity="down"',
     "cell": 'kind="blocked", distance=4',

@@ -61,3 +61,16 @@ def test_a_field_of_a_later_version_counts_once_it_differs_from_its_default() ->
         )
     ]
     assert len({later.digest, *(each.digest for each in changed)}) == 5
+
+
+def test_only_scenes_that_must_hold_count() -> None:
+    table = load_design("prototype_1").model_dump()
+    scenes = {name: {"kind": "payload", "mass_g": 5.0} for name in ("a", "b")}
+    unused = Design.of(table | {"scenes": scenes})
+    assert unused.digest == STORED["prototype_1"]
+    limits = {"limits": {"scenes": ["a"]}}
+    required = Design.of(table | {"scenes": scenes} | limits)
+    assert required.digest != unused.digest
+    assert Design.of(table | {"scenes": {"a": scenes["a"]}} | limits).digest == required.digest
+    heavier = {"a": {"kind": "payload", "mass_g": 6.0}}
+    assert Design.of(table | {"scenes": heavier} | limits).digest != required.digest

@@ -47,6 +47,23 @@ def test_every_kind_of_scene_survives_being_written_and_read() -> None:
     assert design.limits.scenes == ("cup", "blocked")
 
 
+@pytest.mark.parametrize("scale", [1.7e308, 1e-310, 5e-324])
+def test_directions_of_any_length_are_unit_vectors(scale: float) -> None:
+    for x, z in ((1, 1), (0, -1)):
+        found = scene_of({"kind": "free", "gravity": [x * scale, z * scale]}, "it").gravity  # type: ignore[union-attr]
+        assert found == pytest.approx((x / math.hypot(x, z), z / math.hypot(x, z)), rel=1e-12)
+
+
+def test_an_integer_beyond_all_numbers_is_no_direction() -> None:
+    assert "must be none, down" in refusal({"kind": "free", "gravity": [10**400, 1]})
+
+
+def test_a_mass_without_gravity_is_refused() -> None:
+    for none in ("none", [0.0, 0.0]):
+        sentence = refusal({"kind": "payload", "mass_g": 20, "gravity": none})
+        assert "mass_g = 20 g has no weight" in sentence
+
+
 def test_a_design_without_scenes_is_written_and_found_as_before_there_were_any() -> None:
     design = load_design("prototype_1")
     assert "scenes" not in design.to_toml()
@@ -56,14 +73,14 @@ def test_a_design_without_scenes_is_written_and_found_as_before_there_were_any()
 def test_the_digest_knows_kinds_and_numbers_of_scenes() -> None:
     designs = [
         with_scenes({}),
-        with_scenes({"a": {"kind": "free"}}),
-        with_scenes({"a": {"kind": "blocked"}}),
-        with_scenes({"a": {"kind": "blocked", "distance": 1.0}}),
-        with_scenes({"b": {"kind": "blocked", "distance": 1.0}}),
+        with_scenes({"a": {"kind": "free"}}, "a"),
+        with_scenes({"a": {"kind": "blocked"}}, "a"),
+        with_scenes({"a": {"kind": "blocked", "distance": 1.0}}, "a"),
+        with_scenes({"b": {"kind": "blocked", "distance": 1.0}}, "b"),
         with_scenes({}, "blocked"),
     ]
     assert len({design.digest for design in designs}) == len(designs)
-    assert with_scenes({"a": {"kind": "blocked", "friction": 0.0}}).digest == designs[2].digest
+    assert with_scenes({"a": {"kind": "blocked", "friction": 0.0}}, "a").digest == designs[2].digest
 
 
 def test_equal_designs_with_scenes_have_equal_hashes() -> None:

@@ -14,9 +14,12 @@ from linear_finger import DESIGN, linear_law
 
 from bellows_design.approval import Verdict, decide, open_question
 from bellows_design.design import Design
-from bellows_design.design.scenes.scene import Scene, named_scene
+from bellows_design.design.scenes.scene import named_scene
+from bellows_design.errors import UnreachedError
 from bellows_design.export.statements import grounds
 from bellows_design.force.curve import force_curve
+from bellows_design.force.finger_law import FingerLaw, Uncertainty
+from bellows_design.force.required_scenes import required_scenes
 from bellows_design.force.result import SceneResult
 from bellows_design.leak_test.record import Unavailable
 from bellows_design.pipeline import run
@@ -24,8 +27,11 @@ from bellows_design.reports.outcome import outcome_table
 
 GOOD = FakeEvaluation(max_von_mises_mpa=2.0, error_estimate=FakeEstimate(2.0))
 CUP = {
-    "kind": "grip", "size": 30.0, "mass_g": 50.0, "distance": 18.0, "place": 38.0,
+    "kind": "grip", "size": 30.0, "mass_g": 50.0, "distance": 18.0, "place": 44.0,
 }  # fmt: skip
+
+FAR = 1000.0
+"""N mm: more than any section bears."""
 
 
 def holding(*names: str, **scenes: Any) -> Design:
@@ -34,10 +40,10 @@ def holding(*names: str, **scenes: Any) -> Design:
     return Design.of(table | {"scenes": scenes, "limits": {"scenes": list(names)}})
 
 
-def result(design: Design, name: str, stress: float = 2.0) -> SceneResult:
+def result(design: Design, name: str, law: FingerLaw | None = None, **facts: Any) -> SceneResult:
     """A scene's result by the linear law."""
     _, scene = named_scene(name, design.scenes)
-    law = linear_law(von_mises=stress)
+    law = law or linear_law(**({"reach": FAR} | facts))
     return SceneResult(name, force_curve(design, scene, (0.1,), law, name=name, by_distance=False))
 
 
@@ -65,7 +71,7 @@ def test_the_stress_under_a_scenes_load_counts_with_its_error(
 ) -> None:
     """Prototype 1 yields at 4 MPa, and the law is good for 5 %."""
     design = holding("blocked")
-    found = verdict(design, result(design, "blocked", stress))
+    found = verdict(design, result(design, "blocked", von_mises=stress))
     assert found.approved == approved
     assert [(each.kind, each.unit) for each in found.reasons] == [("scene", "MPa")] * (not approved)
 
@@ -78,6 +84,46 @@ def test_a_grip_that_slips_refuses() -> None:
     assert isinstance(reason.measured, float) and 0 < reason.measured < 5000
     light = holding("cup", cup=CUP)
     assert verdict(light, result(light, "cup")).approved
+
+
+def test_an_object_that_does_not_come_to_rest_refuses() -> None:
+    design = holding("cup", cup=CUP | {"place": 38.0})
+    (reason,) = verdict(design, result(design, "cup")).reasons
+    assert (reason.kind, reason.measured) == ("scene", "no equilibrium")
+    assert "draw the object towards their roots" in reason.message
+
+
+@pytest.mark.parametrize(("share", "approved"), [(0.9, True), (0.98, False)])
+def test_the_error_of_the_payload_counts(share: float, approved: bool) -> None:
+    unsure = Uncertainty(mesh=0.01)
+    light = holding("cup", cup=CUP)
+    found = result(light, "cup", rotations=unsure).found
+    assert found is not None and found.last.largest_payload_g is not None
+    error = found.last.largest_payload_error_percent
+    assert error is not None and 2 < error < 10
+    heavy = holding("cup", cup=CUP | {"mass_g": share * found.last.largest_payload_g})
+    decided = verdict(heavy, result(heavy, "cup", rotations=unsure))
+    assert decided.approved == approved
+    assert [each.kind for each in decided.reasons] == ["accuracy"] * (not approved)
+    assert decided.undecided is not approved
+
+
+def test_a_law_beyond_its_table_or_out_of_time_decides_nothing() -> None:
+    design = holding("blocked")
+    (beyond,) = verdict(design, result(design, "blocked", reach=1.0)).reasons
+    assert (beyond.kind, beyond.measured) == ("accuracy", "extrapolated")
+    unfinished = replace(linear_law(reach=FAR), complete=False)
+    (early,) = verdict(design, result(design, "blocked", unfinished)).reasons
+    assert (early.kind, early.measured) == ("accuracy", "unfinished")
+
+
+def test_a_finger_that_jumps_refuses() -> None:
+    design = holding("blocked")
+    whole = result(design, "blocked")
+    assert whole.found is not None and not whole.found.jumped
+    jumped = SceneResult("blocked", replace(whole.found, jumped=True))
+    (reason,) = verdict(design, jumped).reasons
+    assert (reason.kind, reason.measured) == ("scene", "a jump")
 
 
 def test_a_scene_that_is_not_reached_or_unstable_refuses() -> None:
@@ -101,7 +147,7 @@ def test_a_run_states_its_scenes_and_a_design_without_any_states_nothing(
     stub_stages: Callable[..., None], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     stub_stages(replace(GOOD, design=DESIGN))
-    monkeypatch.setattr("bellows_design.force.required_scenes.force_curve", by_linear_law)
+    by_linear_laws(monkeypatch)
     design = holding("blocked", "cup", cup=CUP)
     found = run(design, tmp_path, leak_tester=Unavailable("it is not tried"))
     assert found.verdict.approved, found.verdict.reasons
@@ -114,17 +160,40 @@ def test_a_run_states_its_scenes_and_a_design_without_any_states_nothing(
     assert "scenes" not in plain.to_dict() and "scenes" not in grounds(plain)
 
 
-def by_linear_law(design: Design, scene: Scene, pressures: tuple[float, ...], **known: Any) -> Any:
-    """A force curve by the linear law."""
-    names = {name: known[name] for name in ("name", "by_distance")}
-    return force_curve(design, scene, pressures, linear_law(), **names)
+def by_linear_laws(monkeypatch: pytest.MonkeyPatch) -> list[Design]:
+    """Required scenes by the linear law; the designs whose law was asked for."""
+    asked: list[Design] = []
+
+    def cell_law(design: Design, **_: object) -> FingerLaw:
+        asked.append(design)
+        return linear_law(reach=FAR)
+
+    monkeypatch.setattr("bellows_design.force.required_scenes.cell_law", cell_law)
+    return asked
+
+
+def test_all_scenes_of_a_design_share_its_law(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked = by_linear_laws(monkeypatch)
+    design = holding("blocked", "free", "cup", cup=CUP)
+    assert all(each.found is not None for each in required_scenes(design))
+    assert asked == [design]
+    assert required_scenes(DESIGN) == () and len(asked) == 1
+
+
+def test_where_there_is_no_law_every_scene_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
+    def cell_law(design: Design, **_: object) -> FingerLaw:
+        raise UnreachedError("there is no law of the bubbles.")
+
+    monkeypatch.setattr("bellows_design.force.required_scenes.cell_law", cell_law)
+    found = required_scenes(holding("blocked", "free"))
+    assert {each.failure for each in found} == {"there is no law of the bubbles."}
 
 
 def test_a_scene_that_cannot_be_refuses_in_its_own_words(
     stub_stages: Callable[..., None], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     stub_stages(replace(GOOD, design=DESIGN))
-    monkeypatch.setattr("bellows_design.force.required_scenes.force_curve", by_linear_law)
+    by_linear_laws(monkeypatch)
     design = holding("far", far={"kind": "blocked", "support": "wall", "distance": 90.0})
     found = run(design, tmp_path, leak_tester=Unavailable("it is not tried"))
     (reason,) = found.verdict.reasons

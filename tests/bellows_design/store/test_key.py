@@ -11,7 +11,11 @@ import numpy as np
 import pytest
 from kept import key, small
 
-from bellows_design.budget import DEFAULT, Budget
+from bellows_design.analysis.evaluate import evaluation_of
+from bellows_design.analysis.mesh_sequence import started
+from bellows_design.analysis.models import HALF, UNIT_CELL
+from bellows_design.budget import DEFAULT, LONGEST, Budget
+from bellows_design.design import Design
 from bellows_design.store.key import digest
 from bellows_design.store.surroundings import settings, sources_hash, surroundings
 
@@ -45,6 +49,59 @@ def test_labels_and_the_order_of_pressures_decide_nothing() -> None:
     assert key(small("name=another", "description=words")) == USUAL
     assert key(small("material.source=somewhere")) == USUAL
     assert key(small(), pressures=(0.01, 0.02)) == key(small(), pressures=(0.02, 0.01))
+
+
+CHANGED = {
+    "name": "name=another",
+    "description": "description=words",
+    "bellows": "outer_fillet=0.3",
+    "indent": "indent={shape='arc', depth=0.4, width=2}",
+    "port": "port.wall=2",
+    "fingertip": "fingertip={length=5, width=8, thickness=4}",
+    "material": "material.mu=[0.9, 0.4]",
+    "load": "load.pressure=0.021",
+}
+"""One change for each table of a design."""
+
+UNREAD = {"mount", "printer", "limits", "scenes"}
+
+
+class Watched(Design):
+    """A design that refuses to tell what no evaluation shall read."""
+
+    def __getattribute__(self, name: str) -> object:
+        assert name not in UNREAD, f"an evaluation reads {name}"
+        return super().__getattribute__(name)
+
+
+def test_what_no_evaluation_reads_decides_no_key() -> None:
+    for other in (
+        "limits.max_von_mises=2", "limits.cross_section_width=25", "limits.leak_test=off",
+        "printer=prusa_mk4", "mount={kind='flange'}", "scenes={a={kind='free'}}",
+    ):  # fmt: skip
+        assert key(small(other)) == USUAL
+    required = small("scenes={a={kind='free'}}", 'limits.scenes=["a"]')
+    assert key(required) == USUAL and required.digest != small().digest
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("model", ["cell", "half"])
+def test_no_evaluation_reads_what_is_left_out_of_its_key(model: str) -> None:
+    """Of one mesh, and its ends."""
+    whole = small()
+    watched = Watched.model_construct(
+        **{name: getattr(whole, name) for name in Design.model_fields}
+    )
+    body = {"cell": UNIT_CELL, "half": HALF}[model]
+    unhurried = Budget(seconds=LONGEST)
+    found = evaluation_of(started(watched, body, "as asked for", (), budget=unhurried))
+    assert found.converged
+
+
+@pytest.mark.parametrize("field", sorted(set(Design.model_fields) - UNREAD))
+def test_every_other_field_is_in_the_key_unless_it_is_a_label(field: str) -> None:
+    other = CHANGED[field]
+    assert (key(small(other)) == USUAL) == (field in {"name", "description"})
 
 
 def test_the_same_number_of_any_type_is_the_same_question() -> None:

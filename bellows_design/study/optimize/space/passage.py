@@ -15,6 +15,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from scipy.integrate import trapezoid
 
 from bellows_design.design.design import Design
 
@@ -45,7 +46,7 @@ def filling_seconds(design: Design, cavity_volume_mm3: float) -> float:
         [area * _mass_flux(supply, each, diameter, 1e-3 * p.length) for each in pressures]
     )
     capacity = 1e-9 * cavity_volume_mm3 / (GAS_CONSTANT * TEMPERATURE_K)
-    return float(capacity * np.trapezoid(1 / flows, pressures))
+    return float(capacity * trapezoid(1 / flows, pressures))
 
 
 def _mass_flux(supply: float, inside: float, diameter: float, length: float) -> float:

@@ -11,12 +11,13 @@ from made_up_law import AT_REST, MadeUp
 from meshes import bellows_cell_mesh
 
 from bellows_design.budget import DEFAULT
+from bellows_design.design.overrides import with_overrides
 from bellows_design.design.shipped import load_design
 from bellows_design.force.law.ends import EndPiece
 from bellows_design.force.law.errors import LawError
 from bellows_design.force.law.half_bubble import CellLaw, Effort
 from bellows_design.force.law.interpolation.tabulated import TabulatedLaw
-from bellows_design.force.law.kept import find, keep, key_of_law
+from bellows_design.force.law.kept import find, keep, key_of_extension, key_of_law
 from bellows_design.store.store import Store
 
 DESIGN = load_design("finger")
@@ -72,6 +73,25 @@ def test_a_law_of_another_tolerance_or_design_is_not_found(tmp_path: Path, law: 
     other = load_design("prototype_1")
     for key in (key_of_law(DESIGN, 0.02, DEFAULT), key_of_law(other, 0.01, DEFAULT)):
         assert find(store, key, DESIGN) is None
+
+
+def test_a_law_is_found_whatever_stands_around_the_finger_or_judges_it() -> None:
+    for other in (
+        "scenes={a={kind='free'}}", "limits.max_von_mises=2", "printer=prusa_mk4", "name=other",
+        "mount={kind='flange'}",
+    ):  # fmt: skip
+        assert key_of_law(with_overrides(DESIGN, [other]), 0.01, DEFAULT) == KEY
+    for other in ("load.pressure=0.09", "material.mu=[0.9, 0.4]", "bubble_width=21"):
+        assert key_of_law(with_overrides(DESIGN, [other]), 0.01, DEFAULT) != KEY
+
+
+def test_an_extended_law_has_a_key_of_its_own() -> None:
+    keys = {
+        key_of_extension(KEY, moments, pressures).text
+        for moments in ((-70.0, 0.0), (-60.0, 0.0))
+        for pressures in (None, (0.05, 0.1))
+    }
+    assert len({KEY.text, *keys}) == 5
 
 
 def test_laws_are_counted_and_removed_with_the_evaluations(tmp_path: Path, law: CellLaw) -> None:

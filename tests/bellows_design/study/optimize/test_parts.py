@@ -10,6 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from power_law import answered
+from scipy.integrate import trapezoid
 
 from bellows_design.design.design import Design
 from bellows_design.design.overrides import with_overrides
@@ -104,7 +105,7 @@ def test_a_narrow_channel_fills_as_laminar_flow_of_a_gas_says():
     supply = atmosphere + 1e4
     pressures = np.linspace(atmosphere, atmosphere + 0.95e4, 2000)
     flow_rt = side**2 * side**2 * (supply**2 - pressures**2) / (64 * VISCOSITY_PA_S * length)
-    expected = 1e-9 * volume * np.trapezoid(1 / flow_rt, pressures)
+    expected = 1e-9 * volume * trapezoid(1 / flow_rt, pressures)
     assert filling_seconds(design, volume) == pytest.approx(expected, rel=0.1)
 
 
