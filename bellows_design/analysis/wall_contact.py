@@ -230,16 +230,16 @@ class OuterGaps:
         """Which walls touch."""
         return tuple(name for name, gap in self.gaps.items() if _touches(gap))
 
-    def keeping(self, gap: float, deepest: float) -> OuterGaps:
-        """The same where contact of neighbours has this narrowest gap, and lets them so deep.
+    def keeping(self, gap: float, penetration: float) -> OuterGaps:
+        """The same where contact of neighbours has this narrowest gap; it keeps them if not deep.
 
         Facets are flat, and contact is not: they may just miss each other where it presses.
         """
         facets = self.gaps[NEIGHBOURS]
-        if facets is not None and facets < -deepest:
-            return self
         least = gap if gap < 0 and (facets is None or gap < facets) else facets
-        return replace(self, gaps={**self.gaps, NEIGHBOURS: least}, kept=(NEIGHBOURS,))
+        passed = facets is not None and facets < -DEEPEST * penetration
+        kept = () if passed or gap < -FEW * penetration else (NEIGHBOURS,)
+        return replace(self, gaps={**self.gaps, NEIGHBOURS: least}, kept=kept)
 
 
 @dataclass(frozen=True)
@@ -275,7 +275,7 @@ def _kept_apart(
 ) -> tuple[tuple[float, float] | None, float | None]:
     """What contacts say of neighbouring bubbles, and of inner walls across y = 0.
 
-    Of the former the narrowest gap, and how deep contact may let them, mm; of the latter twice the
+    Of the former the narrowest gap and the penetration of contact, mm; of the latter twice the
     least distance from the plane. None where the problem has no such contact.
     """
     from solver import Contact, SurfaceContact
@@ -285,8 +285,8 @@ def _kept_apart(
     found = list(zip(problem.contacts, gaps, strict=True))
     neighbours = [(c, gap) for c, gap in found if isinstance(c, SurfaceContact)]
     across = [gap for c, gap in found if isinstance(c, Contact) and c.surface == CAVITY]
-    deepest = max((DEEPEST * c.penetration for c, _ in neighbours), default=0.0)
-    between = (min(gap for _, gap in neighbours), deepest) if neighbours else None
+    depth = max((c.penetration for c, _ in neighbours), default=0.0)
+    between = (min(gap for _, gap in neighbours), depth) if neighbours else None
     return between, 2 * min(across) if across else None
 
 
@@ -295,6 +295,10 @@ def _unmodelled(outer: OuterGaps, inner: InnerGaps) -> tuple[str, ...]:
     outside = tuple(name for name in outer.touching if name not in outer.kept)
     return (*outside, INSIDE) if _touches(inner.unkept) else outside
 
+
+FEW = 3.0
+"""Contact that lets neighbours in by more penetrations does not keep them apart: its pressure is as
+many times the shear modulus."""
 
 DEEPEST = 20.0
 """Neighbours deeper in each other than so many penetrations have passed through their contact; flat

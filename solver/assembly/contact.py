@@ -104,6 +104,13 @@ class Contacts:
         ways = (body.displacement(after) - body.displacement(before) for body in bodies)
         return max((float(np.linalg.norm(way)) for way in ways), default=0.0)
 
+    def passed(self, before: State, load: float, after: State, target: float) -> str:
+        """Why one state cannot follow another, at fractions of the load: contact was passed."""
+        for pair in self._pairs:
+            if what := pair.passed(before, load, after, target):
+                return f"the surface {pair.contact.surface!r} would pass through {what}"
+        return ""
+
     def rate(self, state: State, load: float) -> Reals:
         """Derivative (m,) of the contact forces in the residual by the load at rest, N.
 
@@ -136,6 +143,10 @@ class Contacts:
             return contact.penetration
         share = min(1.0, RESOLUTION * tolerance)
         return max(share * contact.penetration, ROUNDING * self._size)
+
+    def touched(self, state: State, load: float) -> bool:
+        """Whether any contact is active."""
+        return any(pair.touches(state, load) for pair in self._pairs)
 
     def against_rigid(self, state: State, load: float) -> bool:
         """Whether the body touches a rigid one."""

@@ -215,7 +215,7 @@ def assemble_curved_contact(
                 continue
             touches = True
             area, shapes = face.areas[triangle, point], face.shapes[point]
-            bend = pressure / (gap + radius)
+            bend = pressure / (gap + radius) if gap + radius > 0.0 else 0.0
             for i in range(3):
                 for j in range(3):
                     stiffness = (slope + bend) * normal[i] * normal[j] - bend * across[i, j]

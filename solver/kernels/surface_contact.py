@@ -9,10 +9,11 @@ from numpy.typing import NDArray
 
 from solver.arrays import Integers, Reals
 from solver.kernels.contact import Face, contact_law
-from solver.kernels.scatter import scatter
+from solver.kernels.scatter import mirror_upper, scatter
 from solver.numerics.compiled import compiled
 
 Numbers: TypeAlias = NDArray[np.int64]
+Flags: TypeAlias = NDArray[np.bool_]
 
 UNKNOWNS = 36
 """Unknowns of two triangles: three for each of six nodes, first of the point's own triangle."""
@@ -51,6 +52,18 @@ class Feet(NamedTuple):
     kinds: Numbers
     edges: Numbers
     normals: Reals
+
+
+class Surface(NamedTuple):
+    """Triangles that points may not be behind.
+
+    ``triangles`` (k, 6), their ``neighbours`` (k, 3) across the edges, -1 for none, and ``rim``
+    (k, 3): which of their corners lie on the rim, where triangles end without a neighbour.
+    """
+
+    triangles: Integers
+    neighbours: Numbers
+    rim: Flags
 
 
 @compiled()
@@ -199,7 +212,7 @@ def foot(x: Reals, point: Reals, found: Reals) -> tuple[float, int, int]:
 def signed_gap(x: Reals, point: Reals, r: float, s: float, kind: int, normal: Reals) -> float:
     """Signed distance of a point from its foot and the direction (3,) in which it grows.
 
-    From an edge or corner it counts only if the point is straight behind, about.
+    From an edge or corner between triangles it counts only if the point is behind both, about.
     """
     shapes, slopes, place, along = np.empty(6), np.empty((6, 2)), np.empty(3), np.empty((2, 3))
     shapes_at(r, s, shapes, slopes)
@@ -221,42 +234,58 @@ def signed_gap(x: Reals, point: Reals, r: float, s: float, kind: int, normal: Re
 
 
 @compiled()
+def closest(
+    point: Reals, candidates: Numbers, nodes: Reals, surface: Surface, found: Reals
+) -> tuple[int, int, int]:
+    """Triangle (-1 for none), kind and edge of a point's foot, a search from ``candidates`` (c,).
+
+    ``found``: its parameters (2,). From an edge the search goes on beyond it as long as that is
+    nearer.
+    """
+    least, chosen, kind, edge, tried = np.inf, -1, INTERIOR, 0, np.empty(2)
+    for triangle in candidates:
+        for _ in range(ITERATIONS):
+            if triangle < 0:
+                break
+            distance, this, beyond = foot(nodes[surface.triangles[triangle]], point, tried)
+            if distance >= least:
+                break
+            least, chosen, kind, edge = distance, triangle, this, beyond
+            found[0], found[1] = tried[0], tried[1]
+            triangle = surface.neighbours[triangle, beyond] if this != INTERIOR else -1
+    return chosen, kind, edge
+
+
+@compiled()
+def on_rim(surface: Surface, triangle: int, kind: int, edge: int, r: float, s: float) -> bool:
+    """Whether a foot is on the rim of the surface."""
+    if kind == INTERIOR:
+        return False
+    if kind == EDGE:
+        return bool(surface.neighbours[triangle, edge] < 0)
+    return bool(surface.rim[triangle, 1 if r > 0.5 else 2 if s > 0.5 else 0])
+
+
+@compiled()
 def find_feet(
-    points: Reals,
-    candidates: Numbers,
-    nodes: Reals,
-    triangles: Integers,
-    neighbours: Numbers,
-    reach: float,
+    points: Reals, candidates: Numbers, nodes: Reals, surface: Surface, reach: float
 ) -> Feet:
     """Closest points of a surface to points (p, 3).
 
     ``candidates`` (p, c): triangles where the search begins, -1 for none; ``nodes`` (n, 3) of the
-    deformed body; ``triangles`` (k, 6); ``neighbours`` (k, 3) across their edges, -1 for none. From
-    an edge the search goes on beyond it as long as that is nearer. Points deeper than ``reach`` do
-    not count.
+    deformed body. Points beyond the rim, or deeper than ``reach``, do not count.
     """
     count = len(points)
     gaps, normals = np.full(count, np.inf), np.zeros((count, 3))
     chosen, kinds, edges = np.full(count, -1), np.zeros(count, np.int64), np.zeros(count, np.int64)
-    parameters, found = np.zeros((count, 2)), np.empty(2)
+    parameters = np.zeros((count, 2))
     for p in range(count):
-        least = np.inf
-        for c in range(candidates.shape[1]):
-            triangle = candidates[p, c]
-            steps = 0
-            while triangle >= 0 and steps < ITERATIONS:
-                steps += 1
-                distance, kind, edge = foot(nodes[triangles[triangle]], points[p], found)
-                if distance >= least:
-                    break
-                least = distance
-                chosen[p], kinds[p], edges[p] = triangle, kind, edge
-                parameters[p, 0], parameters[p, 1] = found[0], found[1]
-                triangle = neighbours[triangle, edge] if kind != INTERIOR else -1
-        if chosen[p] >= 0:
-            x = nodes[triangles[chosen[p]]]
-            r, s = parameters[p]
+        chosen[p], kinds[p], edges[p] = closest(
+            points[p], candidates[p], nodes, surface, parameters[p]
+        )
+        r, s = parameters[p]
+        if chosen[p] >= 0 and not on_rim(surface, chosen[p], kinds[p], edges[p], r, s):
+            x = nodes[surface.triangles[chosen[p]]]
             gaps[p] = signed_gap(x, points[p], r, s, kinds[p], normals[p])
         if not gaps[p] >= -reach or gaps[p] == np.inf:
             gaps[p], chosen[p] = np.inf, -1
@@ -306,27 +335,29 @@ def free_directions(
 
 
 @compiled()
-def gap_derivatives(
-    shapes: Reals,
-    x: Reals,
-    r: float,
-    s: float,
-    kind: int,
-    edge: int,
-    gap: float,
-    normal: Reals,
-    first: Reals,
-    second: Reals,
+def gap_gradient(
+    shapes: Reals, r: float, s: float, normal: Reals, share: Reals, first: Reals
 ) -> None:
-    """First (36,) and second (36, 36) derivatives of a gap by the nodes of both triangles.
+    """First derivatives (36,) of a gap by the nodes of both triangles, ``share`` (12,) of each.
 
-    ``shapes`` (6,) of the point in its own triangle, x (6, 3) nodes of the other one.
+    ``shapes`` (6,) of the point in its own triangle, r and s of its foot in the other one.
     """
-    other, slopes, place, along = np.empty(6), np.empty((6, 2)), np.empty(3), np.empty((2, 3))
+    other, slopes = np.empty(6), np.empty((6, 2))
     shapes_at(r, s, other, slopes)
-    position(x, other, slopes, place, along)
-    tangents, changes, bends = np.empty((2, 3)), np.empty((2, 6)), np.empty((2, 2))
-    free_directions(x, slopes, along, kind, edge, normal, tangents, changes, bends)
+    share[:6], share[6:] = shapes, -other
+    for a in range(12):
+        for i in range(3):
+            first[3 * a + i] = share[a] * normal[i]
+
+
+@compiled()
+def sliding(
+    tangents: Reals, bends: Reals, kind: int, gap: float, flat: Reals, stiff: Reals, bending: Reals
+) -> None:
+    """m^-1, D^-1 and m^-1 k D^-1, each (2, 2), of the free directions of a foot.
+
+    See ``solver.assembly.pairs.surfaces``; the identity in directions that are not free.
+    """
     metric, curved = np.zeros((2, 2)), np.zeros((2, 2))
     for c in range(2):
         if c >= 2 - kind:
@@ -335,26 +366,54 @@ def gap_derivatives(
         for d in range(2 - kind):
             metric[c, d] = dot(tangents[c], tangents[d])
             curved[c, d] = metric[c, d] - gap * bends[c, d]
-    flat, stiff = np.empty((2, 2)), np.empty((2, 2))
     inverse(metric, flat)
     inverse(curved, stiff)
-    bending = np.zeros((2, 2))
+    bending[:, :] = 0.0
     for c in range(2):
         for d in range(2):
             for e in range(2):
                 for f in range(2):
                     bending[c, d] += flat[c, e] * bends[e, f] * stiff[f, d]
-    share, slid, turned = np.empty(12), np.zeros((2, UNKNOWNS)), np.zeros((2, UNKNOWNS))
-    share[:6], share[6:] = shapes, -other
-    for a in range(12):
-        for i in range(3):
-            first[3 * a + i] = share[a] * normal[i]
-            for c in range(2):
+
+
+@compiled()
+def by_nodes(
+    share: Reals, tangents: Reals, changes: Reals, normal: Reals, slid: Reals, turned: Reals
+) -> None:
+    """How a foot slides, and its tangents turn, with the nodes of both triangles: each (2, 36)."""
+    turned[:, :] = 0.0
+    for c in range(2):
+        for a in range(12):
+            for i in range(3):
                 slid[c, 3 * a + i] = share[a] * tangents[c, i]
                 if a >= 6:
                     turned[c, 3 * a + i] = changes[c, a - 6] * normal[i]
+
+
+@compiled()
+def gap_curvature(
+    share: Reals,
+    x: Reals,
+    r: float,
+    s: float,
+    kind: int,
+    edge: int,
+    gap: float,
+    normal: Reals,
+    second: Reals,
+) -> None:
+    """Second derivatives of a gap, the upper half of (36, 36); x (6, 3) of the other triangle."""
+    other, slopes, place, along = np.empty(6), np.empty((6, 2)), np.empty(3), np.empty((2, 3))
+    shapes_at(r, s, other, slopes)
+    position(x, other, slopes, place, along)
+    tangents, changes, bends = np.empty((2, 3)), np.empty((2, 6)), np.empty((2, 2))
+    free_directions(x, slopes, along, kind, edge, normal, tangents, changes, bends)
+    flat, stiff, bending = np.empty((2, 2)), np.empty((2, 2)), np.empty((2, 2))
+    sliding(tangents, bends, kind, gap, flat, stiff, bending)
+    slid, turned = np.empty((2, UNKNOWNS)), np.empty((2, UNKNOWNS))
+    by_nodes(share, tangents, changes, normal, slid, turned)
     for i in range(UNKNOWNS):
-        for j in range(UNKNOWNS):
+        for j in range(i, UNKNOWNS):
             value = 0.0
             for c in range(2 - kind):
                 for d in range(2 - kind):
@@ -367,10 +426,33 @@ def gap_derivatives(
 
 
 @compiled()
+def gap_derivatives(
+    shapes: Reals,
+    x: Reals,
+    r: float,
+    s: float,
+    kind: int,
+    edge: int,
+    gap: float,
+    normal: Reals,
+    first: Reals,
+    second: Reals,
+) -> None:
+    """First (36,) and second (36, 36) derivatives of a gap by the nodes of both triangles."""
+    share = np.empty(12)
+    gap_gradient(shapes, r, s, normal, share, first)
+    gap_curvature(share, x, r, s, kind, edge, gap, normal, second)
+    mirror_upper(second)
+
+
+@compiled()
 def add_unheld(
     share: Reals, normal: Reals, tangent: Reals, flat: float, gap: float, second: Reals
 ) -> None:
-    """Add what the way to an edge or corner turns across directions in which its foot slides."""
+    """Add what the way to an edge or corner turns across directions in which its foot slides.
+
+    To both halves, of which the lower one is not in use.
+    """
     for i in range(3):
         for j in range(3):
             rest = -normal[i] * normal[j] - flat * tangent[i] * tangent[j]
@@ -401,7 +483,7 @@ def assemble_surface_contact(
     of the quadrature points in contact, ``pairs`` (m,): which of the pairs of triangles each
     belongs to, whose ``dofs`` (j, 36) have the places ``entries`` (j, 666).
     """
-    first, second = np.empty(UNKNOWNS), np.empty((UNKNOWNS, UNKNOWNS))
+    first, second, share = np.empty(UNKNOWNS), np.empty((UNKNOWNS, UNKNOWNS)), np.empty(12)
     count = face.shapes.shape[0]
     for m in range(len(points)):
         p = points[m]
@@ -409,14 +491,16 @@ def assemble_surface_contact(
         _, pressure, slope = contact_law(gap, face.stiffness, face.smoothing)
         if pressure == 0.0:
             continue
-        gap_derivatives(
-            face.shapes[p % count], nodes[triangles[feet.triangles[p]]], feet.parameters[p, 0],
-            feet.parameters[p, 1], feet.kinds[p], feet.edges[p], gap, feet.normals[p],
-            first, second,
-        )  # fmt: skip
-        for i in range(UNKNOWNS):
-            for j in range(i, UNKNOWNS):
-                second[i, j] = area * (slope * first[i] * first[j] - pressure * second[i, j])
+        r, s = feet.parameters[p]
+        gap_gradient(face.shapes[p % count], r, s, feet.normals[p], share, first)
+        if tangent:
+            x = nodes[triangles[feet.triangles[p]]]
+            kind, edge = feet.kinds[p], feet.edges[p]
+            gap_curvature(share, x, r, s, kind, edge, gap, feet.normals[p], second)
+            for i in range(UNKNOWNS):
+                for j in range(i, UNKNOWNS):
+                    bent = pressure * second[i, j]
+                    second[i, j] = area * (slope * first[i] * first[j] - bent)
         first *= -area * pressure
         scatter(first, second, dofs[pairs[m]], entries[pairs[m]], 1.0, tangent, residual, values)
 

@@ -141,7 +141,7 @@ class Newton:
         Once corrections decrease fast, the tangent is that of the state itself and its
         factorization is reused; or, if the path continues ``onward``, the iterations end with a
         small correction by such a tangent. With contact the last correction must not exceed the
-        contacts' ``depth`` nor change much what rigid planes exert, and twice as many iterations
+        contacts' ``depth`` nor change much what rigid bodies exert, and twice as many iterations
         are allowed, for the set of points in contact to converge.
         """
         state = guess
@@ -236,7 +236,7 @@ class Newton:
 
         Stable means that the tangent has one negative pivot for each pressure unknown and no
         more: the equilibrium is a minimum of energy under the constraint of incompressibility. The
-        last tangent tells, of a state nearby; at rigid planes other points may touch there.
+        last tangent tells, of a state nearby; at rigid bodies other points may touch there.
         """
         pressed = self.assembly.contacts.against_rigid(state, self.loading.share(load))
         doubtful = self.system.stable is False or pressed
@@ -265,12 +265,16 @@ class Newton:
             return found
         return replace(found, residual=found.residual - (1 - share) * self.fading_force)
 
-    def remaining_force(self, load: float) -> Reals:
-        """Nodal forces (n, 3) of the stage before that are left at a load, N; (0, 3) if none."""
+    def remaining_force(self, load: float) -> tuple[Reals, Reals]:
+        """What is left of the stage before at a load: nodal forces (n, 3), and on the plane (2,).
+
+        In N, on the plane's tilt in N mm; (0, 3) and zeros if there is none.
+        """
         share = 1 - self.loading.share(load)
         if not len(self.fading_force) or share == 0:
-            return np.zeros((0, 3))
-        return share * self.assembly.numbering.expand(self.fading_force)[0]
+            return np.zeros((0, 3)), np.zeros(2)
+        forces, _, plane = self.assembly.numbering.expand(share * self.fading_force)
+        return forces, plane
 
     def _fading_force(self) -> Reals:
         """What keeps the start in equilibrium besides this path's loads (m,), N; empty if nothing.
@@ -340,8 +344,13 @@ class Newton:
         stress = self.assembly.extrapolated_stress(state, increment)
         return replace(moved, geometric_stress=stress)
 
-    def led_by_planes(self, load: float, target: float) -> float:
-        """Longest way of a rigid plane between two fractions of the load, mm."""
+    def passed(self, before: State, load: float, after: State, target: float) -> str:
+        """Why a state at ``target`` cannot follow one at ``load``: bodies passed; else empty."""
+        share = self.loading.share
+        return self.assembly.contacts.passed(before, share(load), after, share(target))
+
+    def led_by_bodies(self, load: float, target: float) -> float:
+        """Longest way of a rigid body between two fractions of the load, mm."""
         share = self.loading.share
         return self.assembly.contacts.way(share(load), share(target))
 

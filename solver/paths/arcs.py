@@ -139,6 +139,9 @@ class Arcs:
         """
         if self.product(a, b.tangent, b.slope) < SHARPEST_TURN:
             return "a sharp turn"
+        here, there = a.equilibrium, b.equilibrium
+        if passed := self.newton.passed(here.state, a.load, there.state, b.load):
+            return passed
         if a.slope * b.slope < 0:
             known = a.unstable_modes is not None
             same = known and a.unstable_modes == b.unstable_modes

@@ -148,8 +148,9 @@ class LoadStepper:
         tolerance = newton.options.tolerance if exact else newton.loose_tolerance
         guess = newton.predicted(reached, load, target)
         attempt = newton.correct(guess, target, tolerance, onward=target != 1.0)
-        led = newton.led_by_planes(load, target)
+        led = newton.led_by_bodies(load, target)
         failure = attempt.failure or _jumped(newton, reached.state, guess, attempt.state, led)
+        failure = failure or newton.passed(reached.state, load, attempt.state, target)
         attempt = guarded(replace(attempt, failure=failure), self.guard)
         if attempt.failure:
             newton.effort.refused_steps += 1
@@ -203,7 +204,9 @@ def _from_whole_load(
     newton: Newton, initial: State, stops: tuple[float, ...], guard: Guard | None
 ) -> Path | None:
     """Newton's method at the whole load, then down through ``stops``; None if that fails."""
-    attempt = guarded(newton.correct(initial, 1.0, newton.options.tolerance), guard)
+    attempt = newton.correct(initial, 1.0, newton.options.tolerance)
+    failure = attempt.failure or newton.passed(initial, 1.0, attempt.state, 1.0)
+    attempt = guarded(replace(attempt, failure=failure), guard)
     if attempt.guarded:
         return _up_to_guard(newton, attempt.state, stops, guard)
     if attempt.failure:
@@ -313,7 +316,7 @@ def _recorrected(newton: Newton, segment: Segment[Attempt]) -> Segment[Attempt]:
 def _jumped(newton: Newton, before: State, predicted: State, found: State, led: float) -> str:
     """Why a state is not the continuation of the path, as after a snap-through; else empty.
 
-    ``led``: how far planes move, mm, which no prediction knows before they touch.
+    ``led``: how far rigid bodies move, mm, which no prediction knows before they touch.
     """
     expected = max(float(np.abs(predicted.displacement - before.displacement).max()), led)
     moved = np.abs(found.displacement - before.displacement).max()

@@ -69,6 +69,7 @@ def _at(newton: Newton, solution: Solution, stop: AtStop) -> Solution:
 def _reached(newton: Newton, state: State, points: Points) -> dict[str, Any]:
     """The fields of a solution that describe the equilibrium at its end."""
     end = points[-1]
+    forces, plane = newton.remaining_force(end.load)
     return {
         "pressure": end.pressure,
         "load": end.load,
@@ -76,7 +77,8 @@ def _reached(newton: Newton, state: State, points: Points) -> dict[str, Any]:
         "displacement": state.displacement,
         "hydrostatic_pressure": state.hydrostatic_pressure,
         "plane": (float(state.plane[0]), float(state.plane[1])),
-        "remaining_force": newton.remaining_force(end.load),
+        "remaining_force": forces,
+        "remaining_plane": plane,
     }
 
 

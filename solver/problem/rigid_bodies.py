@@ -86,8 +86,7 @@ class RigidBody:
 class RigidPlane(RigidBody):
     """Frictionless contact of a surface with a rigid plane, which stands still or moves.
 
-    In a later stage a plane that has moved begins at its new ``point``. What a plane that is gone,
-    or stands elsewhere, has exerted until then fades with the load.
+    In a later stage one that has moved begins at its new ``point``; see ``RigidBody``.
 
     Attributes:
         surface: name of the surface.
@@ -145,6 +144,9 @@ class RigidPlane(RigidBody):
 class RigidCylinder(RigidBody):
     """Frictionless contact of a surface with the outside of a rigid cylinder without ends.
 
+    The radius should be no less than the edges of triangles that it touches, between which a
+    thinner one gets: there the path ends.
+
     Attributes:
         surface: name of the surface.
         penetration: depth inside the cylinder, mm, at a contact pressure equal to the material's
@@ -195,6 +197,9 @@ class RigidCylinder(RigidBody):
 @dataclass(frozen=True)
 class RigidSphere(RigidBody):
     """Frictionless contact of a surface with the outside of a rigid sphere.
+
+    The radius should be no less than the edges of triangles that it touches, between which a
+    thinner one gets: there the path ends.
 
     Attributes:
         surface: name of the surface.

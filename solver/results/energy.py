@@ -20,6 +20,7 @@ from solver.errors import SolverError
 from solver.kernels.assembly import total_energy
 from solver.problem.loads import nodal_forces
 from solver.problem.springs import stiffness_matrix
+from solver.results.remaining import moved_unknowns, remaining_forces
 from solver.results.solution import Solution, check_solution
 
 
@@ -112,7 +113,6 @@ def _dead_work(solution: Solution) -> float:
     """Work of the present dead loads on the way from the undeformed body, N mm."""
     loads, load = solution.problem.loads, solution.load
     forces = load * nodal_forces(solution.problem.mesh, loads)
-    if len(solution.remaining_force):
-        forces += solution.remaining_force
     work = float((forces * solution.displacement).sum())
-    return work + load * section_work(solution.problem, solution.state)
+    left = remaining_forces(solution) * moved_unknowns(solution.problem, solution.state)
+    return work + float(left.sum()) + load * section_work(solution.problem, solution.state)

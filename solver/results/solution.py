@@ -84,6 +84,10 @@ class Solution:
             of the whole load.
 
             *Shape:* (n, 3) in N; (0, 3) if there is none.
+        remaining_plane: of the stage before, on tilt (N mm) and shift (N) of the moving plane; what
+            ``remaining_force`` has of the plane's nodes along z acts on their heights in it.
+
+            *Shape:* (2,).
         bifurcations: points on a path of ``inflate`` at which another branch begins.
     """
 
@@ -107,6 +111,7 @@ class Solution:
     stopped_by: StopKind = ""
     at_stops: tuple[Solution, ...] = ()
     remaining_force: Reals = field(default_factory=lambda: np.zeros((0, 3)))
+    remaining_plane: Reals = field(default_factory=lambda: np.zeros(2))
     bifurcations: tuple[PathPoint, ...] = ()
 
     @property

@@ -20,6 +20,7 @@ from solver.problem.loads import nodal_forces, plane_loads
 from solver.problem.problem import Problem
 from solver.problem.rigid_bodies import RigidBody
 from solver.problem.supports import fixed_displacements
+from solver.results.remaining import moved_unknowns, remaining_forces
 from solver.results.solution import Solution
 
 
@@ -81,7 +82,8 @@ class _Station:
     """What does work at a state.
 
     ``dead`` and ``supports``: nodal forces (n, 3), N; ``planes``: forces (k, 3) of rigid bodies and
-    their places; ``section``: couple (N mm) and axial force (N) on the moving plane (2,), and what
+    their places; ``remaining``: what is left of the stage before, and the unknowns (n + 1, 3) that
+    it works on; ``section``: couple (N mm) and axial force (N) on the moving plane (2,), and what
     they work on: tilt and displacement of the section's origin.
     """
 
@@ -92,6 +94,7 @@ class _Station:
     supports: Reals
     planes: tuple[Reals, Reals]
     section: tuple[Reals, Reals]
+    remaining: tuple[Reals, Reals]
 
     @staticmethod
     def at_rest(problem: Problem) -> _Station:
@@ -100,7 +103,9 @@ class _Station:
             np.zeros(problem.mesh.nodes.shape),
             _planes(problem, State.zero(problem), 0.0),
         )
-        return _Station(problem, 0.0, none, none, none, planes, (np.zeros(2), np.zeros(2)))
+        unmoved = np.zeros((len(none) + 1, 3))
+        section, remaining = (np.zeros(2), np.zeros(2)), (unmoved, unmoved)
+        return _Station(problem, 0.0, none, none, none, planes, section, remaining)
 
     @staticmethod
     def of(solution: Solution) -> _Station:
@@ -110,10 +115,11 @@ class _Station:
             problem=problem,
             pressure=solution.pressure,
             displacement=state.displacement,
-            dead=load * nodal_forces(problem.mesh, problem.loads) + _remaining(solution),
+            dead=load * nodal_forces(problem.mesh, problem.loads),
             supports=_support_forces(solution),
             planes=_planes(problem, state, load),
             section=(load * plane_loads(problem.loads), _section_motion(problem, state)),
+            remaining=(remaining_forces(solution), moved_unknowns(problem, state)),
         )
 
 
@@ -129,14 +135,8 @@ def _support_forces(solution: Solution) -> Reals:
     if problem.moving_plane is not None:
         return np.zeros_like(solution.displacement)
     forces = unbalanced_forces(problem, solution.state, solution.pressure, solution.load)
-    forces -= _remaining(solution)
+    forces -= remaining_forces(solution)[:-1]
     return np.where(fixed_displacements(problem.mesh, problem.supports), forces, 0.0)
-
-
-def _remaining(solution: Solution) -> Reals:
-    """Nodal forces (n, 3) that are left of the stage before, N."""
-    forces = solution.remaining_force
-    return forces if len(forces) else np.zeros_like(solution.displacement)
 
 
 def _planes(problem: Problem, state: State, load: float) -> tuple[Reals, Reals]:
@@ -156,7 +156,8 @@ def _parts(a: _Station, b: _Station) -> Reals:
     pressure = a.pressure * before[0] + b.pressure * after[1]
     loads = (a.dead + b.dead) * moved
     section = (a.section[0] + b.section[0]) * (b.section[1] - a.section[1])
+    left = (a.remaining[0] + b.remaining[0]) * (b.remaining[1] - a.remaining[1])
     supports = (a.supports + b.supports) * moved
     planes = (a.planes[0] + b.planes[0]) * (b.planes[1] - a.planes[1])
-    halves = [loads.sum() + section.sum(), supports.sum(), planes.sum()]
+    halves = [loads.sum() + section.sum() + left.sum(), supports.sum(), planes.sum()]
     return np.array([pressure, *(part / 2 for part in halves)])

@@ -12,8 +12,9 @@ class LawError:
     """Estimated errors of rotations, rad.
 
     Attributes:
-        interpolation: of half a bubble between the points of the table: the largest at points that
-            were computed to see it, times one and a half, and estimates where there are none.
+        interpolation: of half a bubble between the points of the table: twice the largest
+            at points that were computed to see it, or by how much two interpolations differ
+            within rows, and between rows without such points.
         mesh: of half a bubble, by the mesh: what the last refinement changed at the design's
             pressure, and how much less the correction for it fits where neighbours press each
             other.

@@ -98,12 +98,24 @@ class ContactPair(ABC):
         pressures: Reals = contact_pressures(self.face, self.gaps(state, load))
         return pressures
 
+    def passed(self, before: State, load: float, after: State, target: float) -> str:
+        """What points have passed through between two states and fractions of the load; or none.
+
+        They are then where the contact does not see them. A plane has no other side.
+        """
+        return ""
+
     def change(self, before: State, after: State, load: float) -> float:
-        """Change of the pressures between two states, relative to those of the latter."""
+        """Change of the pressures between two states, relative to those of the latter.
+
+        Infinite if those are gone.
+        """
         pressures = self.pressures(after, load)
         changes = np.abs(pressures - self.pressures(before, load))
-        change = float((self.face.areas * changes).sum())
-        return change / float((self.face.areas * pressures).sum()) if change else 0.0
+        change, whole = (float((self.face.areas * p).sum()) for p in (changes, pressures))
+        if not change:
+            return 0.0
+        return change / whole if whole else np.inf
 
     def energy(self, state: State, load: float) -> float:
         """Energy of the penetration, N mm."""

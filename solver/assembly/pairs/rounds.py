@@ -11,12 +11,16 @@ import numpy as np
 
 from solver.arrays import Reals
 from solver.assembly.pairs.pair import ContactPair, PlaneUnknowns, at_nodes, at_points, face_of
+from solver.assembly.pairs.passing import past_axis
 from solver.assembly.state import State
 from solver.kernels.contact import assemble_curved_contact
 from solver.linear.sparsity import Pattern
 from solver.problem.problem import Problem
 from solver.problem.rigid_bodies import RigidCylinder, RigidSphere
 from solver.problem.unknowns import Numbering
+
+WITHIN = 0.5
+"""Share of the radius: a node nearer to the axis or centre is not in contact but passed by it."""
 
 
 class RoundPair(ContactPair):
@@ -39,10 +43,29 @@ class RoundPair(ContactPair):
         return gaps
 
     def normals(self, state: State, load: float) -> Reals:
-        """Directions (k, q, 3) away from axis or centre."""
+        """Directions (k, q, 3) away from axis or centre; any across there."""
         offsets = self._offsets(state, load)
-        normals: Reals = offsets / np.linalg.norm(offsets, axis=2, keepdims=True)
-        return normals
+        distances = np.linalg.norm(offsets, axis=2, keepdims=True)
+        anywhere = self.contact.across[np.abs(self.contact.across).sum(axis=1).argmax()]
+        normals: Reals = np.where(distances > 0, offsets, anywhere)
+        return normals / np.linalg.norm(normals, axis=2, keepdims=True)
+
+    def passed(self, before: State, load: float, after: State, target: float) -> str:
+        """The cylinder or sphere, if it gets into the body.
+
+        Points or nodes have gone to its other side by a way near it, or nodes lie near its axis or
+        centre: it is then between the points, which alone are pressed.
+        """
+        (start, _), (end, nodes) = self._all_offsets(before, load), self._all_offsets(after, target)
+        near = self.contact.radius + self.problem.mesh.edge
+        within = np.linalg.norm(nodes, axis=1).min() < WITHIN * self.contact.radius
+        return f"the {self.contact.kind}" if within or past_axis(start, end, near).any() else ""
+
+    def _all_offsets(self, state: State, load: float) -> tuple[Reals, Reals]:
+        """Vectors as of ``_offsets`` to points and nodes (p, 3), and those to nodes alone."""
+        places = self.face.nodes + state.displacement
+        nodes = self._across(places[np.unique(self.face.triangles)], load)
+        return np.concatenate([self._offsets(state, load).reshape(-1, 3), nodes]), nodes
 
     def add(
         self,
@@ -78,10 +101,14 @@ class RoundPair(ContactPair):
         moved = at_points(self.face, along) @ self.contact.across
         turned = moved - (moved * normals).sum(axis=2, keepdims=True) * normals
         distances = self.gaps(state, load) + self.contact.radius
-        return at_nodes(self.face, (weights / distances)[..., None] * turned)
+        bends = np.divide(weights, distances, np.zeros_like(weights), where=distances > 0)
+        return at_nodes(self.face, bends[..., None] * turned)
 
     def _offsets(self, state: State, load: float) -> Reals:
         """Vectors (k, q, 3) from axis or centre to the quadrature points, across the axis, mm."""
-        places = at_points(self.face, self.face.nodes + state.displacement)
+        return self._across(at_points(self.face, self.face.nodes + state.displacement), load)
+
+    def _across(self, places: Reals, load: float) -> Reals:
+        """Vectors (..., 3) from axis or centre to places, across the axis, mm."""
         offsets: Reals = (places - self.contact.place(load)) @ self.contact.across
         return offsets

@@ -13,7 +13,7 @@ which holds as g vanishes (T. A. Laursen, *Computational Contact and Impact Mech
 chapter 5, has the same in other symbols). Between triangles the surface has kinks: a point behind a
 re-entrant one, of which no triangle has a closest point inside, has the distance from the edge or
 corner, and that one's derivatives, with the term A^T (1 - n n^T - a m^-1 a^T) A / g in addition.
-Beyond the rim of the other surface nothing is touched, but for points nearly straight behind it.
+Beyond the rim of the other surface nothing is touched.
 """
 
 from __future__ import annotations
@@ -26,10 +26,13 @@ from scipy.spatial import cKDTree
 
 from solver.arrays import Integers, Reals
 from solver.assembly.pairs.pair import ContactPair, PlaneUnknowns, at_nodes, at_points, face_of
+from solver.assembly.pairs.passing import through_facets
 from solver.assembly.state import State
 from solver.kernels.surface_contact import (
     Feet,
+    Flags,
     Numbers,
+    Surface,
     assemble_surface_contact,
     bent_gaps,
     find_feet,
@@ -46,16 +49,43 @@ CANDIDATES = 6
 
 
 class Other(NamedTuple):
-    """The other surface.
+    """The other surface, unknowns ``dofs`` (k, 18) of its triangles, and how deep points count, mm.
 
-    ``triangles`` (k, 6), their ``neighbours`` (k, 3) across the edges, -1 for none, and ``dofs``
-    (k, 18); ``reach``: how deep points count, mm.
+    ``reach`` is that depth.
     """
 
-    triangles: Integers
-    neighbours: Numbers
+    surface: Surface
     dofs: Integers
     reach: float
+
+    @property
+    def triangles(self) -> Integers:
+        """Its triangles (k, 6)."""
+        return self.surface.triangles
+
+
+@dataclass(frozen=True)
+class Places:
+    """Where a state has ``points`` (p, 3), ``normals`` (p, 3) there, and flat ``facets`` (f, 3, 3).
+
+    The facets are those of the other surface, four to a triangle, by their corners.
+    """
+
+    points: Reals
+    normals: Reals
+    facets: Reals
+
+    @property
+    def centres(self) -> Reals:
+        """Of the facets (f, 3)."""
+        centres: Reals = self.facets.mean(axis=1)
+        return centres
+
+    @property
+    def across(self) -> Reals:
+        """Unit normals (f, 3) of the facets."""
+        edges = self.facets[:, 1:] - self.facets[:, :1]
+        return _unit(np.cross(edges[:, 0], edges[:, 1]))
 
 
 @dataclass
@@ -80,8 +110,9 @@ class SurfacePair(ContactPair):
         mesh = problem.mesh
         triangles = mesh.triangles(contact.other)
         other = Other(
-            triangles=triangles,
-            neighbours=edge_neighbours(triangles),
+            surface=Surface(
+                triangles, neighbours := edge_neighbours(triangles), rim_of(triangles, neighbours)
+            ),
             dofs=numbering.of_triangles(triangles),
             reach=contact.reach or mesh.edge,
         )
@@ -93,7 +124,7 @@ class SurfacePair(ContactPair):
         memory = self.memory
         positions = self.face.nodes + state.displacement
         if memory.feet is None or not np.array_equal(memory.positions, positions):
-            memory.feet, memory.positions = self._found(positions), positions
+            memory.feet, memory.positions = self._found(state), positions
         return memory.feet
 
     def gaps(self, state: State, load: float) -> Reals:
@@ -113,7 +144,7 @@ class SurfacePair(ContactPair):
         """Pairs of triangles and of those across their edges."""
         own, other = np.divmod(pairs, len(self.other.triangles))
         both = _with_neighbours(own, edge_neighbours(self.face.triangles))
-        beyond = _with_neighbours(other, self.other.neighbours)
+        beyond = _with_neighbours(other, self.other.surface.neighbours)
         first = np.repeat(both, beyond.shape[1], axis=1).ravel()
         last = np.tile(beyond, (1, both.shape[1])).ravel()
         usable = (first >= 0) & (last >= 0)
@@ -172,37 +203,60 @@ class SurfacePair(ContactPair):
         bent: Reals = bent_gaps(self.face, feet, positions, triangles, weights, along)
         return bent
 
-    def _found(self, positions: Reals) -> Feet:
+    def passed(self, before: State, load: float, after: State, target: float) -> str:
+        """The other surface, if points were in front of it and are too deep behind it to count."""
+        ways = [self._places(state) for state in (before, after)]
+        passed = (self._pass(ways[0], ways[1], facing) for facing in map(self._facing, ways))
+        return f"the surface {self.contact.other!r}" if any(passed) else ""
+
+    def _pass(self, start: Places, end: Places, facing: Numbers) -> bool:
+        """Whether points pass through the facets (p,) that they are facing; -1 for none."""
+        those = np.flatnonzero(facing >= 0)
+        points = start.points[those], end.points[those]
+        facets = start.facets[facing[those]], end.facets[facing[those]]
+        return bool(through_facets(points, facets, self.other.reach).any())
+
+    def _places(self, state: State) -> Places:
+        """Where points and facets are at a state."""
+        positions = self.face.nodes + state.displacement
+        along = np.einsum(
+            "qad,kai->dkqi", triangle_rule().gradients, positions[self.face.triangles]
+        )
+        return Places(
+            points=at_points(self.face, positions).reshape(-1, 3),
+            normals=_unit(np.cross(along[0], along[1]).reshape(-1, 3)),
+            facets=np.stack(
+                [positions[self.other.triangles[:, part]] for part in PARTS], axis=1
+            ).reshape(-1, 3, 3),
+        )
+
+    def _found(self, state: State) -> Feet:
         """The closest points after a search among flat facets that oppose the points' own."""
-        places = at_points(self.face, positions).reshape(-1, 3)
-        rule, corners = triangle_rule(), positions[self.face.triangles]
-        along = np.einsum("qad,kai->dkqi", rule.gradients, corners)
-        normals = np.cross(along[0], along[1]).reshape(-1, 3)
-        normals /= np.linalg.norm(normals, axis=1, keepdims=True)
-        candidates = self._candidates(positions, places, normals)
+        places = self._places(state)
+        size = np.linalg.norm(places.facets - places.centres[:, None], axis=2).max()
+        facets = self._opposing(places, CANDIDATES, self.other.reach + float(size))
+        candidates = each_once(np.where(facets >= 0, facets // len(PARTS), -1))
         feet: Feet = find_feet(
-            places, candidates, positions, self.other.triangles, self.other.neighbours,
+            places.points, candidates, self.face.nodes + state.displacement, self.other.surface,
             self.other.reach,
         )  # fmt: skip
         return feet
 
-    def _candidates(self, positions: Reals, places: Reals, normals: Reals) -> Numbers:
-        """Triangles (p, c) of the facets nearest to places with these normals; -1 for none."""
-        triangles = self.other.triangles
-        facets = np.stack([positions[triangles[:, part]] for part in PARTS], axis=1)
-        centres = facets.mean(axis=2).reshape(-1, 3)
-        edges = facets[:, :, 1:] - facets[:, :, :1]
-        across = np.cross(edges[:, :, 0], edges[:, :, 1]).reshape(-1, 3)
-        across /= np.linalg.norm(across, axis=1, keepdims=True)
-        size = float(np.linalg.norm(facets - facets.mean(axis=2, keepdims=True), axis=3).max())
-        count = min(CANDIDATES, len(centres))
-        _, found = cKDTree(centres).query(
-            places, k=np.arange(1, count + 1), distance_upper_bound=self.other.reach + size
+    def _facing(self, places: Places) -> Numbers:
+        """The facet (p,) nearest to each point if it opposes it, -1 if not."""
+        return self._opposing(places, 1, np.inf)[:, 0]
+
+    def _opposing(self, places: Places, count: int, within: float) -> Numbers:
+        """Facets (p, c) nearest to the points, as far as they oppose them; -1 for none."""
+        count = min(count, len(places.facets))
+        _, found = cKDTree(places.centres).query(
+            places.points, k=np.arange(1, count + 1), distance_upper_bound=within
         )
-        near = found < len(centres)
+        near = found < len(places.facets)
         found = np.where(near, found, 0)
-        opposing = np.einsum("pi,pci->pc", normals, across[found]) <= OPPOSING
-        return np.where(near & opposing, found // len(PARTS), -1)
+        across = places.across
+        opposing = np.einsum("pi,pci->pc", places.normals, across[found]) <= OPPOSING
+        return np.where(near & opposing, found, -1)
 
     def _numbers(self, feet: Feet, points: Numbers) -> Numbers:
         """Numbers of the pairs of triangles that points belong to."""
@@ -230,6 +284,24 @@ def edge_neighbours(triangles: Integers) -> Numbers:
     one, other = order[same], order[same + 1]
     neighbours[one], neighbours[other] = other // 3, one // 3
     return neighbours.reshape(-1, 3)
+
+
+def _unit(vectors: Reals) -> Reals:
+    """Vectors (p, 3) with length 1."""
+    unit: Reals = vectors / np.linalg.norm(vectors, axis=1, keepdims=True)
+    return unit
+
+
+def rim_of(triangles: Integers, neighbours: Numbers) -> Flags:
+    """Which corners (k, 3) of triangles (k, 6) are ends of an edge without a neighbour."""
+    ends = np.stack([triangles[:, :3], triangles[:, [1, 2, 0]]], axis=2)
+    return np.isin(triangles[:, :3], ends[neighbours < 0])
+
+
+def each_once(numbers: Numbers) -> Numbers:
+    """Numbers (p, c) with those that a row has before replaced by -1."""
+    same = numbers[:, :, None] == numbers[:, None, :]
+    return np.where(np.tril(same, -1).any(axis=2), -1, numbers)
 
 
 def _with_neighbours(triangles: Numbers, neighbours: Numbers) -> Numbers:

@@ -60,7 +60,7 @@ def changes_between(
         found.append(Change("extremum", _extremum_between(newton, a, b)))
     if a.unstable_modes != b.unstable_modes:
         found.append(Change("bifurcation", _bifurcation_between(newton, a, b)))
-    elif _is_unusual(a, b, turning) and not newton.problem.contacts:
+    elif _is_unusual(a, b, turning) and not (_touches(newton, a) or _touches(newton, b)):
         turn = _sharp_turn_between(newton, a, b)
         found += [Change("turn", turn)] if turn is not None else []
     return tuple(sorted(found, key=lambda change: abs(change.at.volume - a.volume)))
@@ -69,6 +69,11 @@ def changes_between(
 def turning(a: HeldVolume, b: HeldVolume) -> float:
     """Turn of the path per volume between two of its equilibria, rad/mm^3."""
     return a.turn(b) / abs(b.volume - a.volume)
+
+
+def _touches(newton: Newton, at: HeldVolume) -> bool:
+    """Whether a contact is active: where points begin to touch, a path turns on its branch."""
+    return newton.assembly.contacts.touched(at.found.state, newton.loading.share(at.pressure))
 
 
 def _is_unusual(a: HeldVolume, b: HeldVolume, before: float | None) -> bool:

@@ -177,13 +177,21 @@ class VolumeStepper:
     def attempt(self, segment: Segment[Step], target: float) -> Step:
         """The equilibrium with the ``target`` volume, counted."""
         before = segment.reached
-        held = at_volume(self.newton, before.held, target)
+        held = self._not_passed(before.held, at_volume(self.newton, before.held, target))
         if held.failure:
             self.newton.effort.refused_steps += 1
             return Step(held)
         self.newton.effort.load_steps += 1
         changes = changes_between(self.newton, before.held, held, before.turning)
         return Step(held, changes, turning(before.held, held))
+
+    def _not_passed(self, before: HeldVolume, held: HeldVolume) -> HeldVolume:
+        """``held``, failed if bodies have passed through each other on the way to it."""
+        here, there = before.found, held.found
+        failure = there.failure or self.newton.passed(
+            here.state, here.load, there.state, there.load
+        )
+        return replace(held, found=replace(there, failure=failure))
 
     def accepted(self, segment: Segment[Step]) -> Segment[Step]:
         """The segment with points for its end and for the changes before it."""

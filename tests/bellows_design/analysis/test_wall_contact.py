@@ -23,11 +23,13 @@ from bellows_design.analysis.wall_contact import (
     OUTER,
     OVERLAP,
     UNMODELLED,
+    OuterGaps,
     WallContact,
     _outer_gaps,
     _overlaps_itself,
     contact_in_cell,
     contact_of,
+    touch_guard,
 )
 from bellows_design.design.bellows_parameters import BellowsParameters
 from bellows_design.design.design import Design
@@ -35,6 +37,7 @@ from bellows_design.design.overrides import with_overrides
 from bellows_design.design.shipped import load_design
 from bellows_design.geometry.bubble_walls import BACK, FRONT, facing_walls, wall_name
 from solver import Problem, Solution, SolverOptions, contact_forces, solve
+from solver.assembly.state import State
 
 Array = NDArray[np.float64]
 BELLOWS = BellowsParameters.model_validate(
@@ -281,14 +284,44 @@ def test_walls_of_bubbles_are_their_outsides_and_share_no_node(problem: Problem)
         assert apart == pytest.approx(GAP, abs=1e-6), gap
 
 
-def test_neighbours_deep_in_each_other_are_not_kept_apart_whatever_the_model_says(
-    problem: Problem,
+def sheared(problem: Problem, shift: float) -> Array:
+    """Every bubble sheared rootwards above the tendon: the top by ``shift`` more than the last."""
+    x, _, z = problem.mesh.nodes.T
+    height = BELLOWS.tendon_height
+    share = np.clip((z - height) / (z.max() - height), 0, 1)
+    number = np.rint((x - BELLOWS.bubble_middles[0]) / BELLOWS.pitch)
+    steps = number.clip(0, BELLOWS.bubble_count - 1)
+    return np.column_stack([-shift * steps * share, 0 * x, 0 * x])
+
+
+TOUCHING = {"hardly": (1.68, True), "deep for contact": (1.7, False), "through it": (2.0, False)}
+
+
+@pytest.mark.parametrize("how", TOUCHING)
+def test_neighbours_are_kept_apart_as_long_as_contact_lets_them_in_by_little(
+    problem: Problem, how: str
 ) -> None:
-    through = compressed(problem, 2)
-    found = contact_of(BELLOWS, problem.mesh, through, problem)
-    assert NEIGHBOURS in found.where and found.void and not found.modelled
-    apart = contact_of(BELLOWS, problem.mesh, compressed(problem, 0), problem)
-    assert (apart.where, apart.modelled, apart.note) == ((), True, "")
+    shift, kept = TOUCHING[how]
+    found = contact_of(BELLOWS, problem.mesh, sheared(problem, shift), problem)
+    assert found.where == (NEIGHBOURS,) and found.min_gap_mm is not None
+    assert found.min_gap_mm < 0
+    assert found.modelled == kept and found.void != kept
+    refused = touch_guard(BELLOWS, problem)(
+        replace(State.zero(problem), displacement=sheared(problem, shift))
+    )
+    assert bool(refused) != kept
+
+
+def test_neighbours_too_deep_for_contact_to_see_are_not_kept_apart() -> None:
+    """Beyond its reach a contact has no gap; facets tell."""
+    for facets, kept in ((-0.1, (NEIGHBOURS,)), (-0.2, ())):
+        found = OuterGaps({NEIGHBOURS: facets, OUTER: None}, False).keeping(np.inf, 0.0075)
+        assert found.kept == kept and found.narrowest == facets
+
+
+def test_neighbours_apart_are_modelled(problem: Problem) -> None:
+    found = contact_of(BELLOWS, problem.mesh, compressed(problem, 0), problem)
+    assert (found.where, found.modelled, found.note) == ((), True, "")
 
 
 @pytest.mark.slow

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from meshes import tube_mesh
+from meshes import box_mesh, tube_mesh
 from numpy.typing import NDArray
 from scipy.sparse import csr_array
 from scipy.spatial.transform import Rotation
@@ -30,6 +30,8 @@ from solver import (
     work,
 )
 from solver.assembly.assembly import Assembly
+from solver.assembly.pairs.made import contact_pairs
+from solver.assembly.pairs.pair import PlaneUnknowns, at_points
 from solver.assembly.state import State
 from solver.nonlinear.loading import Loading
 from solver.nonlinear.newton import Newton
@@ -92,6 +94,74 @@ def test_residual_and_tangent_are_derivatives_of_the_energy_at_each_load(
         action = upper @ along + upper.T @ along - upper.diagonal() * along
         numerical = slopes(moved)
         assert abs(action - numerical).max() < 1e-6 * abs(numerical).max()
+
+
+def rod_over_a_block(radius: float, kind: str, motion: Callable[[float], Array] | None) -> Round:
+    if kind == "sphere":
+        return RigidSphere("z1", 0.01, (0.5, 0.5, 1.01 + radius), radius, motion)
+    return RigidCylinder("z1", 0.01, (0.5, 0, 1.01 + radius), (0, 1, 0), radius, motion)
+
+
+@pytest.mark.parametrize("kind", ["cylinder", "sphere"])
+@pytest.mark.parametrize("led", ["rod", "block"])
+def test_a_thin_rod_or_small_ball_does_not_get_into_a_block_in_one_step(
+    kind: str, led: str
+) -> None:
+    """A gap that is measured on the block's surface is positive again behind it."""
+
+    def down(load: float) -> Array:
+        return np.array([0, 0, -0.15 * load])
+
+    def up(positions: Array, load: float) -> Array:
+        return np.broadcast_to([0, 0, 0.15 * load], positions.shape)
+
+    supports = Supports(("z0",)) if led == "rod" else Supports(prescribed={"z0": up})
+    rod = rod_over_a_block(0.1, kind, down if led == "rod" else None)
+    problem = Problem(box_mesh((4, 4, 2)), RUBBER, supports, contacts=(rod,))
+    solution = solve(problem, options=SolverOptions(first_step=1.0))
+    (found,) = contact_forces(solution)
+    assert solution.refused_steps > 0
+    assert found.force[2] < -0.01 and found.gap < 0
+
+
+@pytest.mark.parametrize("radius", [0.05, 0.02])
+def test_a_rod_too_thin_for_the_mesh_stops_the_path_before_it_is_in_the_block(
+    radius: float,
+) -> None:
+    rod = rod_over_a_block(radius, "cylinder", lambda load: np.array([0, 0, -0.2 * load]))
+    problem = Problem(box_mesh((4, 4, 2)), RUBBER, Supports(("z0",)), contacts=(rod,))
+    solution = solve(problem, options=SolverOptions(smallest_step=0.02))
+    assert not solution.converged
+    assert "the surface 'z1' would pass through the cylinder" in solution.message
+    assert solution.displacement[:, 2].min() > -0.2
+
+
+@pytest.mark.parametrize("kind", ["cylinder", "sphere"])
+def test_a_point_on_an_axis_or_centre_is_pushed_somewhere_across(kind: str) -> None:
+    mesh = box_mesh((1, 1, 1))
+    rod = rod_over_a_block(0.05, kind, None)
+    (pair,) = contact_pairs(Problem(mesh, RUBBER, Supports(("z0",)), contacts=(rod,)))
+    state = State.zero(pair.problem)
+    point = at_points(pair.face, mesh.nodes)[0, 0]
+    moved = replace(state, displacement=np.broadcast_to(rod.place(0.0) - point, mesh.nodes.shape))
+    normals = pair.normals(moved, 0.0)
+    assert np.linalg.norm(normals, axis=2) == pytest.approx(1.0)
+    if isinstance(rod, RigidCylinder):
+        assert normals @ rod.direction == pytest.approx(0.0, abs=1e-12)
+    residual = np.zeros(3 * len(mesh.nodes))
+    pair.add(moved, 0.0, PlaneUnknowns(np.zeros(0), 0.0), residual, np.zeros(0), None)
+    assert np.isfinite(residual).all() and abs(residual).max() > 0
+
+
+def test_a_last_correction_that_loses_the_contact_changes_its_pressure_without_bound() -> None:
+    mesh = box_mesh((1, 1, 1))
+    rod = rod_over_a_block(0.6, "sphere", None)
+    (pair,) = contact_pairs(Problem(mesh, RUBBER, Supports(("z0",)), contacts=(rod,)))
+    apart = State.zero(pair.problem)
+    touching = replace(apart, displacement=mesh.nodes * [0, 0, 0.05])
+    assert pair.change(touching, apart, 0.0) == np.inf
+    assert pair.change(apart, apart, 0.0) == 0
+    assert pair.change(apart, touching, 0.0) == pytest.approx(1.0)
 
 
 @pytest.mark.parametrize("name", ASKEW)

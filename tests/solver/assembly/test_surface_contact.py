@@ -122,6 +122,32 @@ def test_residual_and_tangent_are_derivatives_of_the_contact_energy() -> None:
         assert abs(action - numerical).max() < 1e-6 * abs(numerical).max()
 
 
+@pytest.mark.parametrize(("gap", "travel", "reach"), [(0.0, 0.5, 0.05), (1.0, 1.4, 0.1)])
+def test_blocks_do_not_pass_through_each_other_in_large_steps(
+    gap: float, travel: float, reach: float
+) -> None:
+    mesh = stack((3, 3, 3), (3, 3, 3), gap)
+    supports = Supports(symmetry=PLANES, prescribed={"upper z1": led(-travel)})
+    contact = replace(TOUCH, penetration=1e-2, reach=reach)
+    solution = solve(Problem(mesh, RUBBER, supports, contacts=(contact,)))
+    (found,) = contact_forces(solution)
+    assert solution.converged and solution.refused_steps > 0
+    stretch = 1 - (travel - gap) / 2
+    assert found.force[2] == pytest.approx(stretch**-2 - stretch, rel=0.05)
+    assert -2e-2 < found.gap < 0
+
+
+def test_a_path_that_only_a_pass_could_continue_says_what_is_in_the_way() -> None:
+    """Less reach than contact of this pressure needs."""
+    supports = Supports(symmetry=PLANES, prescribed={"upper z1": led(-0.6)})
+    contact = replace(TOUCH, penetration=0.1, reach=0.02)
+    options = SolverOptions(smallest_step=0.01)
+    solution = solve(Problem(stack(), RUBBER, supports, contacts=(contact,)), options=options)
+    assert not solution.converged
+    assert "the surface 'upper z0' would pass through the surface 'lower z1'" in solution.message
+    assert 0 < contact_forces(solution)[0].force[2] < 0.2
+
+
 def test_action_is_reaction() -> None:
     mesh = both(bumpy((2, 2, 1), 1), raised(bumpy((3, 2, 1), 2), (0.1, -0.05, 0.9)))
     contact = SurfaceContact("upper z0", "lower z1", 0.3, reach=0.4)
@@ -134,6 +160,22 @@ def test_action_is_reaction() -> None:
     assert forces.sum(axis=0) == pytest.approx(np.zeros(3), abs=1e-12 * size)
     moment = np.cross(mesh.nodes, forces).sum(axis=0)
     assert moment == pytest.approx(np.zeros(3), abs=1e-12 * size)
+
+
+@pytest.mark.parametrize("along", [0.05, 0.08, 0.3])
+def test_flat_blocks_pushed_over_each_other_s_rim_feel_no_force_sideways(along: float) -> None:
+    """Behind the rim, and beyond it on either side, there is none without friction."""
+    mesh = both(box_mesh((2, 2, 1)), raised(box_mesh((2, 2, 1)), (0, 0, 0.98)))
+    contact = SurfaceContact("upper z0", "lower z1", 1e-2, reach=0.3)
+    supports = Supports(("lower z0", "upper z1"))
+    problem = Problem(mesh, RUBBER, supports, contacts=(contact,))
+    (pair,) = contact_pairs(problem)
+    upper = mesh.nodes[:, 2] > 0.9 * 0.98
+    upper[np.unique(mesh.surfaces["lower z1"])] = False
+    moved = np.where(upper[:, None], [along, 0.02, 0], 0.0)
+    forces = pair.forces(State(moved, np.zeros(0), np.zeros(2)), 1.0)[upper]
+    assert forces[:, :2] == pytest.approx(0.0, abs=1e-12)
+    assert forces[:, 2].sum() > 1
 
 
 def test_blocks_of_matching_meshes_meet_as_a_block_meets_a_plane_of_symmetry() -> None:
@@ -230,17 +272,20 @@ def test_blocks_in_contact_are_stable_and_a_lifted_one_leaves_nothing_behind() -
     assert after.displacement[lower] == pytest.approx(np.zeros((len(lower), 3)), abs=1e-7)
 
 
-def test_derivatives_by_the_shape_are_those_of_problems_solved_anew() -> None:
-    """The response is the volume under the pressed face of the upper block."""
+def test_derivatives_by_shape_and_material_are_those_of_problems_solved_anew() -> None:
+    """The response is the volume under the pressed face of the upper block.
+
+    A contact is the stiffer the stiffer its material.
+    """
     tight = SolverOptions(tolerance=1e-11, maximum_iterations=30)
     mesh = both(bumpy((2, 2, 1), 1), raised(bumpy((3, 2, 1), 2), (0.1, -0.05, 1.06)))
     velocity = mesh.nodes * [0.1, 0.05, 0.1] * mesh.nodes[:, 2:]
     supports = Supports(("lower z0", "upper x1"))
     contact = SurfaceContact("upper z0", "lower z1", 0.05, reach=0.5)
 
-    def solved(step: float) -> Solution:
-        moved = mesh.moved(mesh.nodes + step * velocity)
-        problem = Problem(moved, RUBBER, supports, ("upper z1",), contacts=(contact,))
+    def solved(step: float, stiffer: float = 0.0) -> Solution:
+        moved, rubber = mesh.moved(mesh.nodes + step * velocity), Ogden.neo_hooke(1.0 + stiffer)
+        problem = Problem(moved, rubber, supports, ("upper z1",), contacts=(contact,))
         found = solve(problem, 0.3, tight)
         assert found.converged and found.negative_pivots in (None, len(mesh.vertices))
         return found
@@ -248,7 +293,10 @@ def test_derivatives_by_the_shape_are_those_of_problems_solved_anew() -> None:
     start = solved(0.0)
     assert contact_forces(start)[0].force[2] > 0.02
     found = sensitivities(start, {"shape": velocity}, constant_changes(RUBBER))
+    stiffer = found.derivatives["volume"]["mu_1"]
     step = 1e-4
+    softly, stiffly = (solved(0.0, change).path[-1].volume for change in (-step, step))
+    assert stiffer == pytest.approx((stiffly - softly) / (2 * step), rel=1e-4)
     numerical = (solved(step).path[-1].volume - solved(-step).path[-1].volume) / (2 * step)
     assert found.derivatives["volume"]["shape"] == pytest.approx(numerical, rel=1e-4)
 

@@ -11,6 +11,7 @@ from solver.kernels.surface_contact import (
     EDGE,
     INTERIOR,
     Feet,
+    Surface,
     find_feet,
     gap_derivatives,
     shapes_at,
@@ -26,13 +27,12 @@ def curved(seed: int = 1, size: float = 0.1) -> Array:
     return FLAT + np.random.default_rng(seed).uniform(-size, size, (6, 3))
 
 
-def feet(points: Array, x: Array, reach: float = 10.0) -> Feet:
-    """Of points (p, 3) on one triangle."""
-    count = len(points)
-    return find_feet(
-        points, np.zeros((count, 1), np.int64), x, np.arange(6, dtype=np.int32)[None],
-        np.full((1, 3), -1), reach,
-    )  # fmt: skip
+def feet(points: Array, x: Array, reach: float = 10.0, rim: bool = False) -> Feet:
+    """Of points (p, 3) on one triangle, whose edges are a ``rim``, or stand for kinks."""
+    candidates = np.zeros((len(points), 1), np.int64)
+    neighbours = np.full((1, 3), -1 if rim else 0)
+    alone = Surface(np.arange(6, dtype=np.int32)[None], neighbours, np.full((1, 3), rim))
+    return find_feet(points, candidates, x, alone, reach)
 
 
 def place(x: Array, r: float, s: float) -> tuple[Array, Array]:
@@ -58,12 +58,17 @@ def test_a_point_over_a_curved_triangle_finds_where_it_was_raised_from(
 
 
 def test_points_beyond_the_rim_or_too_deep_touch_nothing() -> None:
-    points = np.array([[-0.5, 0.3, -0.1], [0.3, 0.3, -0.2], [0.3, 0.3, -0.4], [-0.05, 0.3, -0.2]])
-    found = feet(points, FLAT.copy(), reach=0.3)
-    assert list(found.triangles) == [-1, 0, -1, 0]
-    assert found.gaps[[0, 2]] == pytest.approx(np.inf)
-    assert found.gaps[1] == pytest.approx(-0.2)
-    assert found.gaps[3] == pytest.approx(-np.hypot(0.05, 0.2))
+    """Beyond an edge or a corner; beyond a kink points count that are behind it, not beside."""
+    points = np.array(
+        [[0.3, 0.3, -0.2], [0.3, 0.3, -0.4], [-0.05, 0.3, -0.2], [-0.05, -0.05, -0.2],
+         [-0.5, 0.3, -0.1]]
+    )  # fmt: skip
+    alone, joined = (feet(points, FLAT.copy(), reach=0.3, rim=rim) for rim in (True, False))
+    assert list(alone.triangles) == [0, -1, -1, -1, -1]
+    assert list(joined.triangles) == [0, -1, 0, 0, -1]
+    deep = [0.2, np.inf, np.hypot(0.05, 0.2), np.sqrt(0.2**2 + 2 * 0.05**2), np.inf]
+    assert abs(joined.gaps) == pytest.approx(np.array(deep))
+    assert (alone.gaps[1:] == np.inf).all() and alone.gaps[0] == joined.gaps[0]
 
 
 BEHIND = {

@@ -19,6 +19,7 @@ from thick_walls import (
 )
 
 from solver import (
+    Contact,
     Mesh,
     Ogden,
     PathPoint,
@@ -105,8 +106,10 @@ def test_a_path_keeps_to_the_closed_form_or_says_where_another_branch_begins(
 
 
 @needs_inertia
-def test_small_steps_take_the_stable_branch_and_say_so() -> None:
-    problem = tube(6, 1)
+@pytest.mark.parametrize("contacts", [(), (Contact("y1", 0.01, 2, -1e3),)])
+def test_small_steps_take_the_stable_branch_and_say_so(contacts: tuple[Contact, ...]) -> None:
+    """Also where a problem has contacts of which none is touched."""
+    problem = replace(tube(6, 1), contacts=contacts)
     volume = 10.2 * at_rest(problem)
     pumped = inflate(problem, volume, replace(TIGHT, first_step=0.02, growth=1.001))
     pressure = closed_tube_at(NINJAFLEX, 5.0, 6.0, 10.2)

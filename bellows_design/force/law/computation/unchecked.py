@@ -14,10 +14,9 @@ PLACES = 41
 """Moments at which two rows are compared."""
 
 
-def within_rows(rows: Sequence[Row], tolerance: float) -> float:
-    """Largest doubt between points that could not be refined to a tolerance (rad), rad."""
-    doubts = (doubt(*pair) for row in rows for pair in pairwise(row.points))
-    return max((each for each in doubts if each > tolerance), default=0.0)
+def within_rows(rows: Sequence[Row]) -> float:
+    """Largest doubt between neighbouring points of rows, rad: refinement leaves the tolerance."""
+    return max((doubt(*pair) for row in rows for pair in pairwise(row.points)), default=0.0)
 
 
 def between_rows(table: Table, low: float, high: float) -> float:

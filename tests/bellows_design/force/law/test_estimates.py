@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import threading
 from functools import partial
-from itertools import pairwise
 from typing import cast
 
+import numpy as np
 import pytest
 from made_up_law import MadeUp
 
@@ -15,7 +15,6 @@ from bellows_design.force.law.computation.continuation import Continuation, Solv
 from bellows_design.force.law.computation.side_by_side import side_by_side
 from bellows_design.force.law.computation.unchecked import between_rows, within_rows
 from bellows_design.force.law.computation.walking import SolvedRow
-from bellows_design.force.law.interpolation.rows import doubt
 from bellows_design.force.law.interpolation.table import Table
 from solver import Solution
 
@@ -41,11 +40,14 @@ def test_the_estimate_between_rows_vanishes_for_a_rotation_quadratic_in_the_pres
     assert between_rows(table, 0.0, 0.1) < 1e-6 * (max(rotations) - min(rotations))
 
 
-def test_only_doubts_beyond_the_tolerance_count_within_rows() -> None:
-    rows = LAW.table(3, 5).rows
-    largest = max(doubt(*pair) for row in rows for pair in pairwise(row.points))
-    assert within_rows(rows, 1.01 * largest) == 0.0
-    assert within_rows(rows, 0.99 * largest) == largest
+@pytest.mark.parametrize("moments", [9, 17, 33])
+def test_the_estimate_within_rows_is_four_fifths_of_the_error_at_least(
+    moments: int,
+) -> None:
+    row = LAW.row(0.05, np.linspace(-60, 20, moments))
+    table = Table((row, LAW.row(0.1, np.linspace(-60, 20, moments))))
+    points = [LAW.point(0.05, moment) for moment in range(-59, 20, 3)]
+    assert within_rows([row]) > 0.8 * max(error_at(table, point) for point in points)
 
 
 def test_a_table_that_nobody_had_time_to_check_states_its_estimated_error() -> None:
