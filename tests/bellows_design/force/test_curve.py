@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from linear_finger import BEND, DESIGN, TURN, arms, linear_law
 
+from bellows_design.design import load_design, with_overrides
 from bellows_design.design.scenes.blocked import Blocked
 from bellows_design.design.scenes.free import Free
 from bellows_design.design.scenes.grip import Grip
@@ -17,6 +18,7 @@ from bellows_design.force.curve import force_curve
 from bellows_design.force.finger_law import Uncertainty
 from bellows_design.force.result import ForceCurve
 from bellows_design.force.scene.solved import Solved
+from bellows_design.force.scene.surroundings import weights_of
 from bellows_design.force.section_law import LinearLaw, SectionResponse
 from solver.arrays import Reals
 
@@ -345,6 +347,20 @@ def test_the_error_of_shear_is_what_shear_changes() -> None:
     changed = 100 * abs(again.force_n / found.force_n - 1)
     assert found.error.shear == pytest.approx(changed, rel=0.1) and changed > 1e-3
     assert found.error.total == found.error.shear
+
+
+@pytest.mark.parametrize(
+    "settings", [("length=48.6",), ("bubble_distance=4", "offset=1.6", "length=70")]
+)
+@pytest.mark.parametrize("scene", [Free(gravity=(0.0, -1.0)), Blocked()])
+def test_a_finger_may_end_with_a_bubble_or_begin_within_half_a_gap(
+    settings: tuple[str, ...], scene: Free | Blocked
+) -> None:
+    """A stub that is shorter than nothing weighs nothing."""
+    design = with_overrides(load_design("finger"), settings)
+    weights = weights_of(design)
+    assert min(weights.root.newtons, weights.tip.newtons) >= 0
+    assert force_curve(design, scene, (0.02,), linear_law()).converged
 
 
 def test_a_summary_has_no_times_and_no_curves() -> None:
