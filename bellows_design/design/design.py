@@ -27,7 +27,7 @@ from bellows_design.design.features.fingertip import Fingertip
 from bellows_design.design.features.mount import Mount
 from bellows_design.design.indent import Indent
 from bellows_design.design.port import Port
-from bellows_design.design.scenes.scene import BUILT_IN, Scene, check_fits, scenes_of
+from bellows_design.design.scenes.scene import BUILT_IN, Scene, Scenes, check_fits, scenes_of
 from bellows_design.errors import DesignError
 from bellows_design.files.toml_files import toml_table
 from bellows_design.materials.library import load_material, material_at, material_names
@@ -93,7 +93,7 @@ class Design(Parameters):
     )
     limits: Limits = Field(default_factory=Limits)
     scenes: dict[str, Scene] = Field(
-        default_factory=dict, description="what stands around the actuator where it exerts forces"
+        default_factory=Scenes, description="what stands around the actuator where it exerts forces"
     )
 
     def __init__(self, /, **data: Any) -> None:  # "self" may be a key of the file
@@ -203,6 +203,11 @@ class Design(Parameters):
     @classmethod
     def _scenes_of_tables(cls, value: Any) -> dict[str, Scene]:
         return scenes_of(value)
+
+    @field_validator("scenes", mode="after")
+    @classmethod
+    def _scenes_stay(cls, value: dict[str, Scene]) -> Scenes:
+        return Scenes(value)
 
     @field_validator("material", mode="before")
     @classmethod

@@ -35,6 +35,19 @@ LONGEST_NAME = 64
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_-]{0,63}")
 
 
+class Scenes(dict[str, Scene]):
+    """Scenes by their names, which stay as they are."""
+
+    def _refuse(self, *_: object, **__: object) -> Any:
+        raise TypeError("the scenes of a design cannot be changed; make another design")
+
+    __setitem__ = __delitem__ = __ior__ = _refuse
+    clear = pop = popitem = setdefault = update = _refuse
+
+    def __reduce__(self) -> tuple[type[Scenes], tuple[dict[str, Scene]]]:
+        return Scenes, (dict(self),)
+
+
 def scene_of(table: Any, subject: str) -> Scene:
     """The scene that ``table`` describes; ``subject`` is what messages call it.
 

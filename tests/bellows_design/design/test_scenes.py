@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import copy
 import math
+import operator
+import pickle
 from pathlib import Path
 from typing import Any
 
@@ -81,6 +84,23 @@ def test_the_digest_knows_kinds_and_numbers_of_scenes() -> None:
     ]
     assert len({design.digest for design in designs}) == len(designs)
     assert with_scenes({"a": {"kind": "blocked", "friction": 0.0}}, "a").digest == designs[2].digest
+
+
+def test_the_scenes_of_a_design_stay() -> None:
+    design = with_scenes({"cup": GRIP})
+    for change in (
+        lambda: design.scenes.update(a=Free()),
+        lambda: design.scenes.pop("cup"),
+        lambda: design.scenes.clear(),
+        lambda: operator.setitem(design.scenes, "a", Free()),
+        lambda: operator.delitem(design.scenes, "cup"),
+        lambda: operator.ior(design.scenes, {"a": Free()}),
+        lambda: operator.setitem(load_design("finger").scenes, "a", Free()),
+    ):
+        with pytest.raises(TypeError, match="cannot be changed"):
+            change()
+    for again in (pickle.loads(pickle.dumps(design)), copy.deepcopy(design)):
+        assert again == design and type(again.scenes) is type(design.scenes)
 
 
 def test_equal_designs_with_scenes_have_equal_hashes() -> None:
