@@ -59,7 +59,7 @@ def panel(axes: Axes, name: str) -> None:
     axes.set(title=name, xlabel="pressure, MPa", ylabel="force, N", xlim=(0, 0.105))
     axes.set_ylim(bottom=0)
     axes.grid(True, linewidth=0.4, alpha=0.4)
-    axes.legend(loc="upper left")
+    axes.legend(loc="lower right")
 
 
 def _band(axes: Axes, found: ForceCurve) -> None:
