@@ -1,11 +1,11 @@
 """Derivatives of the virtual work of contacts (``solver.assembly.contact``) by positions.
 
 A contact's energy is the integral of psi(g) over the reference area, g being the distance of a
-point from its plane (or cylinder, or sphere). Along a direction, which may also tilt and shift the
-moving plane, the gap changes by dg, so that the work is the integral of psi' dg. Its derivative has
-parts by the area, by the deformed positions (g and dg change) and, at the moving plane, by where
-the plane is in the undeformed body. Which points touch is taken as it is: there psi'' is
-continuous.
+point from its plane (or cylinder, sphere, other surface). Along a direction, which may also tilt
+and shift the moving plane, the gap changes by dg, so that the work is the integral of psi' dg. Its
+derivative has parts by the area, by the deformed positions (g and dg change) and, at the moving
+plane, by where the plane is in the undeformed body. Which points touch is taken as it is: there
+psi'' is continuous.
 """
 
 from __future__ import annotations
