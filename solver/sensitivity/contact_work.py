@@ -18,7 +18,7 @@ from solver.arrays import Reals
 from solver.assembly.pairs.pair import ContactPair
 from solver.assembly.pairs.planes import PlanePair
 from solver.assembly.state import State
-from solver.kernels.contact import contact_slopes
+from solver.kernels.contact import SLOPE, contact_values
 from solver.problem.contacts import on_moving_plane
 from solver.sensitivity.surface_integrals import area_derivative
 from solver.sensitivity.unknowns import Direction
@@ -59,7 +59,7 @@ class _Touch:
     def of(pair: ContactPair, state: State, load: float, direction: Direction) -> _Touch:
         """Gaps and their changes."""
         changes = pair.changes(state, load, direction.displacement, direction.plane)
-        curvatures = contact_slopes(pair.face, pair.gaps(state, load))
+        curvatures = contact_values(pair.face, pair.gaps(state, load), SLOPE)
         slopes = -pair.pressures(state, load)
         return _Touch(pair, state, load, direction, slopes, curvatures, changes)
 

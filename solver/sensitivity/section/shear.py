@@ -151,7 +151,9 @@ def _solved(matrix: csr_array, freedom: Freedom, load: Reals) -> Reals:
     try:
         solver.factorize(values)
     except SingularMatrix as error:
-        raise SolverError(f"shear: the tangent is singular at this state ({error}).") from error
+        raise SolverError(
+            f"shear_compliance: the tangent is singular at this state ({error})."
+        ) from error
     vector = solver.solve(right)
     for _ in range(REFINEMENTS):
         vector = vector + solver.solve(right - whole @ vector)
