@@ -18,6 +18,10 @@ UNKNOWNS = 20
 """Unknowns of a triangle: three for each of six nodes, then tilt and shift of the moving plane."""
 
 
+ENERGY, PRESSURE, SLOPE = 0, 1, 2
+"""What ``contact_law`` gives: psi (N/mm), -dpsi/dg (MPa), d2psi/dg2 (MPa/mm)."""
+
+
 class Face(NamedTuple):
     """Triangles that may touch a plane, as arrays for the kernels.
 
@@ -62,39 +66,14 @@ def contact_law(gap: float, stiffness: float, smoothing: float) -> tuple[float, 
 
 
 @compiled()
-def contact_pressures(face: Face, gaps: Reals) -> Reals:
-    """Pressure (k, q) per reference area at signed gaps (k, q) of quadrature points, MPa."""
-    pressures = np.empty(gaps.shape)
+def contact_values(face: Face, gaps: Reals, which: int) -> Reals:
+    """``ENERGY``, ``PRESSURE`` or ``SLOPE`` (k, q) at signed gaps (k, q) of quadrature points."""
+    values = np.empty(gaps.shape)
     for triangle in range(gaps.shape[0]):
         for point in range(gaps.shape[1]):
-            pressures[triangle, point] = contact_law(
-                gaps[triangle, point], face.stiffness, face.smoothing
-            )[1]
-    return pressures
-
-
-@compiled()
-def contact_slopes(face: Face, gaps: Reals) -> Reals:
-    """d2psi/dg2 (k, q) at signed gaps (k, q) of quadrature points, MPa/mm."""
-    slopes = np.empty(gaps.shape)
-    for triangle in range(gaps.shape[0]):
-        for point in range(gaps.shape[1]):
-            slopes[triangle, point] = contact_law(
-                gaps[triangle, point], face.stiffness, face.smoothing
-            )[2]
-    return slopes
-
-
-@compiled()
-def contact_energies(face: Face, gaps: Reals) -> Reals:
-    """psi (k, q) at signed gaps (k, q) of quadrature points, N/mm."""
-    energies = np.empty(gaps.shape)
-    for triangle in range(gaps.shape[0]):
-        for point in range(gaps.shape[1]):
-            energies[triangle, point] = contact_law(
-                gaps[triangle, point], face.stiffness, face.smoothing
-            )[0]
-    return energies
+            law = contact_law(gaps[triangle, point], face.stiffness, face.smoothing)
+            values[triangle, point] = law[which]
+    return values
 
 
 @compiled()
@@ -186,6 +165,30 @@ def assemble_contact(
 
 
 @compiled()
+def add_curved(
+    pressure: float,
+    slope: float,
+    distance: float,
+    area: float,
+    shapes: Reals,
+    normal: Reals,
+    across: Reals,
+    r: Reals,
+    k: Reals,
+) -> None:
+    """Add a point's part of residual r (20,) and tangent k (20, 20); ``distance`` from the axis."""
+    bend = pressure / distance if distance > 0.0 else 0.0
+    for i in range(3):
+        for j in range(3):
+            stiffness = (slope + bend) * normal[i] * normal[j] - bend * across[i, j]
+            for a in range(6):
+                for b in range(6):
+                    k[3 * a + i, 3 * b + j] += area * stiffness * shapes[a] * shapes[b]
+        for a in range(6):
+            r[3 * a + i] -= area * pressure * shapes[a] * normal[i]
+
+
+@compiled()
 def assemble_curved_contact(
     face: Face,
     entries: Integers,
@@ -214,15 +217,9 @@ def assemble_curved_contact(
             if pressure == 0.0:
                 continue
             touches = True
-            area, shapes = face.areas[triangle, point], face.shapes[point]
-            bend = pressure / (gap + radius) if gap + radius > 0.0 else 0.0
-            for i in range(3):
-                for j in range(3):
-                    stiffness = (slope + bend) * normal[i] * normal[j] - bend * across[i, j]
-                    for a in range(6):
-                        for b in range(6):
-                            k[3 * a + i, 3 * b + j] += area * stiffness * shapes[a] * shapes[b]
-                for a in range(6):
-                    r[3 * a + i] -= area * pressure * shapes[a] * normal[i]
+            add_curved(
+                pressure, slope, gap + radius, face.areas[triangle, point], face.shapes[point],
+                normal, across, r, k,
+            )  # fmt: skip
         if touches:
             scatter(r, k, face.dofs[triangle], entries[triangle], 1.0, tangent, residual, values)

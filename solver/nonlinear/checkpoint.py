@@ -1,4 +1,8 @@
-"""A solve after a load step: enough to continue it with the same bits."""
+"""A solve after a load step: enough to continue it with the same bits.
+
+With contact of surfaces to rounding only: what a solve touched before decides the order of its
+elimination (``solver.assembly.pairs.coupling``).
+"""
 
 from __future__ import annotations
 

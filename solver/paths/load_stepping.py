@@ -71,7 +71,8 @@ def solve(
             decreasing load after a start at the whole load.
         resume: a checkpoint that a listener was given on an earlier run of the same problem,
             pressure, options and stops. The path continues from there, with the same bits (unless
-            the first run corrected the checkpoint's state once more, to the full tolerance).
+            the first run corrected the checkpoint's state once more, to the full tolerance; with
+            ``SurfaceContact`` to rounding).
         guard: is asked for every equilibrium whether it is accepted. The path stops before the
             first that is not, located to the options' ``smallest_step``, for the reason that the
             guard gives; ``stopped_by`` is then ``guard``.

@@ -1,4 +1,7 @@
-"""What surfaces of the body may not cross: planes of symmetry, the moving plane, rigid bodies."""
+"""What surfaces of the body may not cross.
+
+Planes of symmetry, the moving plane, rigid bodies, and other surfaces of the body.
+"""
 
 from __future__ import annotations
 

@@ -75,16 +75,21 @@ class Tangent:
         return result - skew if transposed else result + skew
 
 
+SENSITIVITIES = "sensitivities"
+"""What errors name if not told otherwise."""
+
+
 @dataclass
 class TangentSystem:
     """Linear systems with the tangent of ``equilibrium``, solved by ``system`` and refined.
 
-    ``factorizations``: how many were made for it.
+    ``caller``: what errors name. ``factorizations``: how many were made for it.
     """
 
     at: Equilibrated
     system: LinearSystem
     equilibrium: Equilibrium
+    caller: str = SENSITIVITIES
     factorizations: int = 0
     tangent: Tangent = field(init=False)
 
@@ -92,29 +97,31 @@ class TangentSystem:
         self.tangent = Tangent.of(self.equilibrium)
 
     @staticmethod
-    def of(solution: Solution, workspace: Workspace | None) -> TangentSystem:
+    def of(
+        solution: Solution, workspace: Workspace | None, caller: str = SENSITIVITIES
+    ) -> TangentSystem:
         """At a solution, with the factorization of a ``workspace`` or a new one.
 
         Raises ``SolverError`` if the tangent is singular, or the workspace is of another problem.
         """
         problem = solution.problem
         if workspace is not None and workspace.assembly.problem is not problem:
-            raise SolverError("sensitivities: the workspace belongs to another problem.")
+            raise SolverError(f"{caller}: the workspace belongs to another problem.")
         assembly = Assembly(problem) if workspace is None else workspace.assembly
         at = Equilibrated(assembly, solution.state, solution.pressure, solution.load)
         equilibrium = assembly.evaluate(at.state, at.pressure, load=at.load)
         if not equilibrium.admissible:
-            raise SolverError("sensitivities: an element of the state is turned inside out.")
+            raise SolverError(f"{caller}: an element of the state is turned inside out.")
         if workspace is not None:
-            return TangentSystem(at, workspace.system, equilibrium)
-        return TangentSystem(at, LinearSystem(assembly, "auto"), equilibrium)
+            return TangentSystem(at, workspace.system, equilibrium, caller)
+        return TangentSystem(at, LinearSystem(assembly, "auto"), equilibrium, caller)
 
     def factorize(self) -> None:
         """Factorize the tangent of the state itself. Raises ``SolverError`` if it is singular."""
         try:
             self.system.factorize(self.equilibrium)
         except SingularMatrix as error:
-            raise SolverError(f"{SINGULAR} ({error}).") from error
+            raise SolverError(f"{self.caller}: {SINGULAR} ({error}).") from error
         self.factorizations += 1
 
     def solve(self, right_hand_side: Reals, transposed: bool = False) -> tuple[Reals, float]:
@@ -129,7 +136,7 @@ class TangentSystem:
             self.factorize()
             vector, residual = self._refined(right_hand_side, transposed)
         if not residual <= LARGEST:
-            raise SolverError(f"{SINGULAR} (relative residual {residual:.1e}).")
+            raise SolverError(f"{self.caller}: {SINGULAR} (relative residual {residual:.1e}).")
         return vector, residual
 
     def _refined(self, right_hand_side: Reals, transposed: bool) -> tuple[Reals, float]:
@@ -155,22 +162,25 @@ def inner(one: Reals, other: Reals) -> float:
     return float((one * other).sum())
 
 
-def check_equilibrium(solution: Solution) -> None:
-    """Raise ``SolverError`` unless a solution is an equilibrium at the whole load of one stage."""
+def check_equilibrium(solution: Solution, caller: str = SENSITIVITIES) -> None:
+    """Raise ``SolverError`` unless a solution is an equilibrium at the whole load of one stage.
+
+    ``caller``: what the error names.
+    """
     check_solution(solution)
     if not solution.converged:
         raise SolverError(
-            f"sensitivities: the solution did not converge ({solution.message.rstrip('.')}); "
+            f"{caller}: the solution did not converge ({solution.message.rstrip('.')}); "
             "derivatives belong to an equilibrium at the whole load."
         )
     if len(solution.remaining_force):
         raise SolverError(
-            "sensitivities: the equilibrium lies between two stages of loading; derivatives of "
+            f"{caller}: the equilibrium lies between two stages of loading; derivatives of "
             "what the stage before has left are not known."
         )
 
 
 SINGULAR = (
-    "sensitivities: the tangent is singular at this state, as at a limit point or bifurcation; "
+    "the tangent is singular at this state, as at a limit point or bifurcation; "
     "derivatives exist only away from it"
 )

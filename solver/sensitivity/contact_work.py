@@ -1,11 +1,11 @@
 """Derivatives of the virtual work of contacts (``solver.assembly.contact``) by positions.
 
 A contact's energy is the integral of psi(g) over the reference area, g being the distance of a
-point from its plane (or cylinder, or sphere). Along a direction, which may also tilt and shift the
-moving plane, the gap changes by dg, so that the work is the integral of psi' dg. Its derivative has
-parts by the area, by the deformed positions (g and dg change) and, at the moving plane, by where
-the plane is in the undeformed body. Which points touch is taken as it is: there psi'' is
-continuous.
+point from its plane (or cylinder, sphere, other surface). Along a direction, which may also tilt
+and shift the moving plane, the gap changes by dg, so that the work is the integral of psi' dg. Its
+derivative has parts by the area, by the deformed positions (g and dg change) and, at the moving
+plane, by where the plane is in the undeformed body. Which points touch is taken as it is: there
+psi'' is continuous.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from solver.arrays import Reals
 from solver.assembly.pairs.pair import ContactPair
 from solver.assembly.pairs.planes import PlanePair
 from solver.assembly.state import State
-from solver.kernels.contact import contact_slopes
+from solver.kernels.contact import SLOPE, contact_values
 from solver.problem.contacts import on_moving_plane
 from solver.sensitivity.surface_integrals import area_derivative
 from solver.sensitivity.unknowns import Direction
@@ -59,7 +59,7 @@ class _Touch:
     def of(pair: ContactPair, state: State, load: float, direction: Direction) -> _Touch:
         """Gaps and their changes."""
         changes = pair.changes(state, load, direction.displacement, direction.plane)
-        curvatures = contact_slopes(pair.face, pair.gaps(state, load))
+        curvatures = contact_values(pair.face, pair.gaps(state, load), SLOPE)
         slopes = -pair.pressures(state, load)
         return _Touch(pair, state, load, direction, slopes, curvatures, changes)
 

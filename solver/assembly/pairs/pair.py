@@ -13,7 +13,7 @@ import numpy as np
 
 from solver.arrays import Integers, Reals
 from solver.assembly.state import State
-from solver.kernels.contact import Face, contact_energies, contact_pressures
+from solver.kernels.contact import ENERGY, PRESSURE, Face, contact_values
 from solver.linear.sparsity import Pattern
 from solver.mesh.elements import triangle_rule
 from solver.mesh.mesh import Mesh
@@ -95,7 +95,7 @@ class ContactPair(ABC):
 
     def pressures(self, state: State, load: float) -> Reals:
         """Pressure per reference area at the quadrature points, (k, q), MPa."""
-        pressures: Reals = contact_pressures(self.face, self.gaps(state, load))
+        pressures: Reals = contact_values(self.face, self.gaps(state, load), PRESSURE)
         return pressures
 
     def passed(self, before: State, load: float, after: State, target: float) -> str:
@@ -119,7 +119,7 @@ class ContactPair(ABC):
 
     def energy(self, state: State, load: float) -> float:
         """Energy of the penetration, N mm."""
-        energies = contact_energies(self.face, self.gaps(state, load))
+        energies = contact_values(self.face, self.gaps(state, load), ENERGY)
         return float((self.face.areas * energies).sum())
 
 

@@ -136,7 +136,7 @@ class SurfacePair(ContactPair):
         return self.feet(state).normals.reshape(*self.face.areas.shape, 3)
 
     def coupled(self, state: State) -> Numbers:
-        """Pairs of triangles (j,) that touch, each as a number: ``numbers``."""
+        """Pairs of triangles (j,) that touch, each as a number (``_numbers``)."""
         feet = self.feet(state)
         return np.unique(self._numbers(feet, np.flatnonzero(feet.gaps < 0)))
 

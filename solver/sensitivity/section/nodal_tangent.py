@@ -82,8 +82,8 @@ def _add_contacts(
             continue
         if axis == 0:
             raise SolverError(
-                f"shear: the surface {contact.surface!r} touches its mirror image along x; how "
-                "the cell shears then is not known."
+                f"shear_compliance: the surface {contact.surface!r} touches its mirror image "
+                "along x; how the cell shears then is not known."
             )
         pair.add(solution.state, solution.load, apart, residual, values, pattern)
 

@@ -86,12 +86,12 @@ def section_response(solution: Solution, newton: Workspace | None = None) -> Sec
         SolverError: a problem without a moving plane, a solution that is not converged, or a
             tangent that is singular.
     """
-    check_equilibrium(solution)
+    check_equilibrium(solution, "section_response")
     problem = solution.problem
     section = Section.of(problem)
     if section is None:
         raise SolverError("section_response: the problem has no moving plane.")
-    system = TangentSystem.of(solution, newton)
+    system = TangentSystem.of(solution, newton, "section_response")
     rows = _rows(system, section)
     solved = [system.solve(row) for row in rows]
     tilt, shift = section.motion(solution.state).tolist()

@@ -64,10 +64,12 @@ def shear_compliance(
         SolverError: another kind of problem, a solution that is not converged, walls that touch
             their images at x = 0, or a tangent that is singular.
     """
-    check_equilibrium(solution)
+    check_equilibrium(solution, "shear_compliance")
     section = Section.of(solution.problem)
     if section is None or not len(middle_nodes(solution)):
-        raise SolverError("shear: the cell needs a moving plane, and one of symmetry at x = 0.")
+        raise SolverError(
+            "shear_compliance: the cell needs a moving plane, and one of symmetry at x = 0."
+        )
     matrix, numbering = nodal_tangent(solution)
     bent = _Bent.of(solution, section, newton)
     freedom = Freedom.of(solution, section, numbering, warps)
@@ -93,7 +95,7 @@ class _Bent:
 
     @staticmethod
     def of(solution: Solution, section: Section, newton: Workspace | None) -> _Bent:
-        system, state = TangentSystem.of(solution, newton), solution.state
+        system, state = TangentSystem.of(solution, newton, "shear_compliance"), solution.state
         rates = section.rates(state, system.at.assembly.numbering)
         by_couple, by_force = (system.solve(rate)[0] for rate in rates)
         length = float(section.plane.positions[0, 0] + section.motion(state)[1])
@@ -149,7 +151,9 @@ def _solved(matrix: csr_array, freedom: Freedom, load: Reals) -> Reals:
     try:
         solver.factorize(values)
     except SingularMatrix as error:
-        raise SolverError(f"shear: the tangent is singular at this state ({error}).") from error
+        raise SolverError(
+            f"shear_compliance: the tangent is singular at this state ({error})."
+        ) from error
     vector = solver.solve(right)
     for _ in range(REFINEMENTS):
         vector = vector + solver.solve(right - whole @ vector)

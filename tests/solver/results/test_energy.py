@@ -11,6 +11,7 @@ from meshes import renamed
 from numpy.typing import NDArray
 
 from solver import (
+    AxialForce,
     BodyForce,
     Couple,
     FoundationSpring,
@@ -205,6 +206,45 @@ def test_the_work_of_stages_is_what_is_stored(box: Meshes) -> None:
     assert min(abs(part) for part in (done.pressure, done.loads, done.supports, done.planes)) > 1e-3
     assert abs(errors[1]) < 0.03
     assert errors[0] / errors[1] == pytest.approx(4.0, rel=0.2)
+
+
+@pytest.mark.parametrize("loads", [(Couple(0.15),), (AxialForce(0.3), Couple(0.15))])
+def test_taking_loads_off_a_moving_plane_gives_back_what_they_stored(
+    box: Meshes, loads: tuple[Couple | AxialForce, ...]
+) -> None:
+    mesh, errors = box((2, 1, 1), (2.0, 1.0, 1.0)), []
+    bent = Problem(mesh, RUBBER, THIRDS, loads=loads, moving_plane="x1")
+    for steps in (4, 8):
+        stops = np.arange(1, steps) / steps
+        first = solve(bent, options=EXACT, stops=stops)
+        second = solve(replace(bent, loads=()), options=EXACT, stops=stops, after=first)
+        path = (*first.at_stops, first, *second.at_stops, second)
+        stored = potential(first).stored
+        assert stored > 0.01 and potential(second).stored < 1e-9
+        errors.append(abs(work(path).total) / stored)
+        halfway = len(first.at_stops) + 1 + steps // 2
+        errors.append(abs(work(path[:halfway]).total / potential(path[halfway - 1]).stored - 1))
+    assert max(errors[:2]) < 0.02
+    for coarse, fine in zip(errors[:2], errors[2:], strict=True):
+        assert fine < max(coarse / 3, 1e-12)  # of second order
+
+
+def test_between_stages_the_total_is_stationary_at_a_moving_plane(box: Meshes) -> None:
+    """To a neighbouring state under the same loads it changes to second order."""
+    mesh = box((2, 1, 1), (2.0, 1.0, 1.0))
+    bent = Problem(mesh, RUBBER, THIRDS, loads=(AxialForce(0.3), Couple(0.15)), moving_plane="x1")
+    first = solve(bent, options=EXACT)
+    last = solve(replace(bent, loads=()), options=EXACT, stops=(0.5, 0.51), after=first)
+    here, beside = last.at_stops
+    there = replace(
+        here,
+        displacement=beside.displacement,
+        hydrostatic_pressure=beside.hydrostatic_pressure,
+        plane=beside.plane,
+    )
+    stored = potential(there).stored - potential(here).stored
+    assert abs(stored) > 1e-4
+    assert abs(potential(there).total - potential(here).total) < 0.03 * abs(stored)
 
 
 def test_work_needs_a_path_on_one_mesh(box: Meshes) -> None:
