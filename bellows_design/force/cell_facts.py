@@ -62,7 +62,8 @@ class CellFacts:
 
     def _touching(self, pressure: float, loads: Reals) -> NDArray[np.bool_]:
         """Which half bubbles touch their neighbour (n,)."""
-        found: NDArray[np.bool_] = gaps(self.law.table, pressure, loads[:, 0]) <= 0
+        moments = self.law.tabulated.moments(loads)
+        found: NDArray[np.bool_] = gaps(self.law.table, pressure, moments) <= 0
         return found
 
     def _neighbours(self, pressure: float, loads: Reals) -> float:

@@ -77,7 +77,7 @@ def _extended(
 
     It is kept where the law is kept that it extends: not where the time was over.
     """
-    moments, pressures = _moments(beyond), _pressures(beyond)
+    moments, pressures = _moments(law, beyond), _pressures(beyond)
     further = key_of_extension(key, moments, pressures)
     kept = find(store, further, law.design) if store is not None else None
     if kept is not None:
@@ -88,9 +88,9 @@ def _extended(
     return found, further
 
 
-def _moments(states: Sequence[ChainState]) -> tuple[float, float]:
-    """Least and greatest moment of ``states``, and some more, N mm."""
-    moments = np.concatenate([state.loads[:, 0] for state in states])
+def _moments(law: CellLaw, states: Sequence[ChainState]) -> tuple[float, float]:
+    """Least and greatest moment of ``states`` by which the table goes, and some more, N mm."""
+    moments = law.tabulated.moments(np.concatenate([state.loads for state in states]))
     return FURTHER * min(float(moments.min()), 0.0), FURTHER * max(float(moments.max()), 0.0)
 
 

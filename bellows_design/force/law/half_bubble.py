@@ -91,12 +91,12 @@ class CellLaw:
 
     def touching(self, pressure: float, loads: Reals) -> bool:
         """Whether neighbouring bubbles touch under section loads (k, 3) at a pressure (MPa)."""
-        return bool((gaps(self.table, pressure, loads[:, 0]) <= 0).any())
+        return bool((gaps(self.table, pressure, self.tabulated.moments(loads)) <= 0).any())
 
     def stress(self, pressure: float, loads: Reals) -> tuple[float, float | None]:
         """Highest von Mises stress (MPa) of pieces under section loads (k, 3), and its error (%).
 
-        Only moments count.
+        Only moments about the height at which neighbours touch count.
         """
-        highest = float(highest_stress(self.table, pressure, loads[:, 0]).max())
+        highest = float(highest_stress(self.table, pressure, self.tabulated.moments(loads)).max())
         return self.stress_factor * highest, self.error.stress_percent

@@ -3,9 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
+from bellows_design.force.law.interpolation.contact_height import (
+    contact_height,
+    loads_about,
+    moments_about,
+    response_at_origin,
+    row_about,
+)
 from bellows_design.force.law.interpolation.table import Curves, Fields, Table
 from bellows_design.force.section_law import SectionResponse
 from solver.arrays import Reals
@@ -42,14 +50,30 @@ class TabulatedLaw:
         Raises:
             BellowsError: a pressure beyond those of the table.
         """
-        found = response_of(self.table.curves(pressure), loads)
+        about = response_of(self._about.curves(pressure), loads_about(loads, self.height))
+        found = response_at_origin(about, self.height)
         rest, slip = self.volume_at_rest, self.shear_compliance
         return corrected(found, pressure, loads[:, 2], self.softening, rest, slip)
 
     def within(self, pressure: float, loads: Reals) -> bool:
-        """Whether the moments of section loads (k, 3) at a pressure (MPa) are in the table."""
+        """Whether section loads (k, 3) at a pressure (MPa) are in the table, by their moments."""
         low, high = self.table.reach(pressure)
-        return bool((loads[:, 0] >= low).all() and (loads[:, 0] <= high).all())
+        moments = self.moments(loads)
+        return bool((moments >= low).all() and (moments <= high).all())
+
+    def moments(self, loads: Reals) -> Reals:
+        """What the table goes by: moments (k,) about the height at which neighbours touch, N mm."""
+        return moments_about(loads, self.height)
+
+    @cached_property
+    def height(self) -> float:
+        """At which neighbouring bubbles touch, mm; 0 if the table does not know."""
+        return contact_height(self.table.rows)
+
+    @cached_property
+    def _about(self) -> Table:
+        """The table about that height."""
+        return Table(tuple(row_about(row, self.height) for row in self.table.rows))
 
 
 def response_of(curves: Curves, loads: Reals) -> SectionResponse:
