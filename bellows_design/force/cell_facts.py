@@ -62,7 +62,7 @@ class CellFacts:
 
     def _touching(self, pressure: float, loads: Reals) -> NDArray[np.bool_]:
         """Which half bubbles touch their neighbour (n,)."""
-        moments = self.law.tabulated.moments(loads)
+        moments = self.law.moments(loads)
         found: NDArray[np.bool_] = gaps(self.law.table, pressure, moments) <= 0
         return found
 

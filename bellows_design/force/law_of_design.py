@@ -90,7 +90,7 @@ def _extended(
 
 def _moments(law: CellLaw, states: Sequence[ChainState]) -> tuple[float, float]:
     """Least and greatest moment of ``states`` by which the table goes, and some more, N mm."""
-    moments = law.tabulated.moments(np.concatenate([state.loads for state in states]))
+    moments = law.moments(np.concatenate([state.loads for state in states]))
     return FURTHER * min(float(moments.min()), 0.0), FURTHER * max(float(moments.max()), 0.0)
 
 

@@ -89,14 +89,18 @@ class CellLaw:
         apart = self.table.apart
         return self.tabulated if apart is None else self.tabulated.on(apart)
 
+    def moments(self, loads: Reals) -> Reals:
+        """Moments (k,) of section loads (k, 3) by which the table goes, N mm."""
+        return self.tabulated.moments(loads)
+
     def touching(self, pressure: float, loads: Reals) -> bool:
         """Whether neighbouring bubbles touch under section loads (k, 3) at a pressure (MPa)."""
-        return bool((gaps(self.table, pressure, self.tabulated.moments(loads)) <= 0).any())
+        return bool((gaps(self.table, pressure, self.moments(loads)) <= 0).any())
 
     def stress(self, pressure: float, loads: Reals) -> tuple[float, float | None]:
         """Highest von Mises stress (MPa) of pieces under section loads (k, 3), and its error (%).
 
         Only moments about the height at which neighbours touch count.
         """
-        highest = float(highest_stress(self.table, pressure, self.tabulated.moments(loads)).max())
+        highest = float(highest_stress(self.table, pressure, self.moments(loads)).max())
         return self.stress_factor * highest, self.error.stress_percent

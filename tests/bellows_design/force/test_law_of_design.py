@@ -17,6 +17,7 @@ from bellows_design.force.law.errors import LawError
 from bellows_design.force.scene.exerted import force_of
 from bellows_design.progress import SILENCE
 from bellows_design.store.key import Key
+from solver.arrays import Reals
 
 
 @dataclass(frozen=True)
@@ -27,19 +28,23 @@ class Reach:
     design: Design = DESIGN
     error: LawError = field(default_factory=lambda: LawError(0.0, 0.0, 0.0, None))
 
+    def moments(self, loads: Reals) -> Reals:
+        """Moments by which it goes, N mm."""
+        return loads[:, 0]
+
 
 def test_a_law_is_extended_to_the_moments_of_a_scene_and_the_path_followed_again(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     asked: list[tuple[float, float]] = []
 
-    def extended(reach: Any, moments: tuple[float, float], *_: object) -> float:
+    def extended(reach: Any, moments: tuple[float, float], *_: object) -> Reach:
         asked.append(moments)
-        return max(abs(each) for each in moments)
+        return Reach(max(abs(each) for each in moments))
 
-    monkeypatch.setattr(law_of_design, "cell_law", lambda *_, **__: 20.0)
+    monkeypatch.setattr(law_of_design, "cell_law", lambda *_, **__: Reach(20.0))
     monkeypatch.setattr(law_of_design, "extended", extended)
-    monkeypatch.setattr(law_of_design, "finger_law", lambda reach: linear_law(reach=reach))
+    monkeypatch.setattr(law_of_design, "finger_law", lambda law: linear_law(reach=law.moment))
     solved = law_of_design.solved_with_its_law(DESIGN, Blocked(), (0.1,), SILENCE, DEFAULT, None)
     (moments,) = asked
     borne = [state.loads[:, 0].min() for state in solved.path.steps]
@@ -50,9 +55,9 @@ def test_a_law_is_extended_to_the_moments_of_a_scene_and_the_path_followed_again
 def test_a_law_that_goes_no_further_is_extrapolated_and_that_is_said(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(law_of_design, "cell_law", lambda *_, **__: 20.0)
+    monkeypatch.setattr(law_of_design, "cell_law", lambda *_, **__: Reach(20.0))
     monkeypatch.setattr(law_of_design, "extended", lambda reach, *_: reach)
-    monkeypatch.setattr(law_of_design, "finger_law", lambda reach: linear_law(reach=reach))
+    monkeypatch.setattr(law_of_design, "finger_law", lambda law: linear_law(reach=law.moment))
     solved = law_of_design.solved_with_its_law(DESIGN, Blocked(), (0.1,), SILENCE, DEFAULT, None)
     (warning,) = solved.warnings
     assert "it is extrapolated there" in warning
