@@ -100,7 +100,7 @@ class CellLaw:
     def stress(self, pressure: float, loads: Reals) -> tuple[float, float | None]:
         """Highest von Mises stress (MPa) of pieces under section loads (k, 3), and its error (%).
 
-        Only moments about the height at which neighbours touch count.
+        Only moments about the neutral height count.
         """
         highest = float(highest_stress(self.table, pressure, self.moments(loads)).max())
         return self.stress_factor * highest, self.error.stress_percent

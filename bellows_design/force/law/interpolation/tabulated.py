@@ -7,10 +7,10 @@ from functools import cached_property
 
 import numpy as np
 
-from bellows_design.force.law.interpolation.contact_height import (
-    contact_height,
+from bellows_design.force.law.interpolation.neutral_height import (
     loads_about,
     moments_about,
+    neutral_height,
     response_at_origin,
     row_about,
 )
@@ -62,13 +62,13 @@ class TabulatedLaw:
         return bool((moments >= low).all() and (moments <= high).all())
 
     def moments(self, loads: Reals) -> Reals:
-        """What the table goes by: moments (k,) about the height at which neighbours touch, N mm."""
+        """What the table goes by: moments (k,) about the neutral height, N mm."""
         return moments_about(loads, self.height)
 
     @cached_property
     def height(self) -> float:
-        """At which neighbouring bubbles touch, mm; 0 if the table does not know."""
-        return contact_height(self.table.rows)
+        """At which an axial force leaves the gap to the neighbour alone, mm; 0 if none is known."""
+        return neutral_height(self.table.rows)
 
     @cached_property
     def _about(self) -> Table:

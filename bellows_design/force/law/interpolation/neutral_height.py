@@ -1,10 +1,9 @@
-"""The height at which neighbouring bubbles touch, and sections seen from there.
+"""Sections seen from the neutral height, at which an axial force leaves the gap as it is.
 
-An axial force at that height neither closes nor opens the gap to the neighbour: only the moment
-about it decides whether bubbles touch. So what is interpolated by moments about that height has its
-kink where neighbours begin to touch whatever the axial force is, and the response to an axial force
-there has none. About the height z = 0 it has one, and the second derivative of the extension, times
-the axial force, would make the interpolated compliance negative beside the kink.
+Only the moment about it decides whether neighbouring bubbles touch. What is interpolated by that
+moment has its kink where they begin to touch whatever the axial force is, and the response to an
+axial force there has none. About z = 0 it has one: times the axial force, the second derivative of
+the extension would make the interpolated compliance negative beside the kink.
 
 With the height H the moment about it is M - H N, and the extension there e + H theta.
 """
@@ -22,11 +21,11 @@ from bellows_design.force.section_law import SectionResponse
 from solver.arrays import Reals
 
 
-def contact_height(rows: Sequence[Row]) -> float:
-    """Height (mm) at which neighbours touch; 0 if no row has points on both sides of that.
+def neutral_height(rows: Sequence[Row]) -> float:
+    """Height (mm) at which axial forces leave the gap alone; 0 if no row has points that touch.
 
-    Touching takes away compliance in proportion to the products of how moment and axial force move
-    the touching walls: the ratio of what is lost is the height. Rows count by their losses.
+    Contact takes away compliance in proportion to the products of how moment and axial force change
+    the gap: the ratio of what is lost is the height. Rows count by their losses.
     """
     lost = [
         below.derivatives[0, :2] - above.derivatives[0, :2]

@@ -1,4 +1,4 @@
-"""Sections seen from the height at which neighbours touch: axial forces there close no gap."""
+"""Sections seen from the neutral height: axial forces there neither close nor open the gap."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from made_up_law import AT_REST, MadeUp
 
-from bellows_design.force.law.interpolation.contact_height import (
-    contact_height,
+from bellows_design.force.law.interpolation.neutral_height import (
     loads_about,
+    neutral_height,
     response_at_origin,
     row_about,
 )
@@ -31,7 +31,7 @@ def onset(pressure: float) -> float:
 
 
 def rotation(pressure: float, moment: float) -> float:
-    """By the moment about the height at which neighbours touch."""
+    """By the moment about the neutral height."""
     return 4 * pressure + SOFT * moment - LOST * min(moment - onset(pressure), 0.0)
 
 
@@ -81,13 +81,13 @@ def least_eigenvalue(compliance: Reals) -> float:
     return float(np.linalg.eigvalsh(compliance[:, :2, :2]).min())
 
 
-def test_the_height_at_which_neighbours_touch_follows_from_the_compliance_that_is_lost() -> None:
-    assert contact_height(table().rows) == pytest.approx(HEIGHT, rel=1e-9)
+def test_the_neutral_height_follows_from_the_compliance_that_contact_takes_away() -> None:
+    assert neutral_height(table().rows) == pytest.approx(HEIGHT, rel=1e-9)
 
 
 def test_without_contact_there_is_no_such_height() -> None:
     rows = MadeUp().table(2, 5).rows
-    assert contact_height(rows) == 0.0
+    assert neutral_height(rows) == 0.0
 
 
 @pytest.mark.parametrize("axial", [-2.0, 0.5, 2.0])
