@@ -60,6 +60,11 @@ class CellFacts:
         """Whether the table reaches that far."""
         return self.law.within(pressure, loads)
 
+    def ends_within(self, pressure: float, loads: Reals) -> bool:
+        """Whether the short actuator was solved that far: its equilibria may end before."""
+        root, tip = self.law.root, self.law.tip
+        return root.within(pressure, loads[:1]) and tip.within(pressure, loads[-1:])
+
     def _touching(self, pressure: float, loads: Reals) -> NDArray[np.bool_]:
         """Which half bubbles touch their neighbour (n,)."""
         moments = self.law.moments(loads)

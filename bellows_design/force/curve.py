@@ -102,7 +102,7 @@ def _curve(solved: Solved, name: str, flow: float, by_distance: bool) -> ForceCu
         tip_work_mj=away.work,
         air=_air(readings, solved.path, flow),
         warnings=(*solved.warnings, *curve[-1].warnings, *away.warnings),
-        extrapolated=bool(solved.beyond),
+        extrapolated=bool(solved.beyond or solved.beyond_ends),
         law_complete=solved.law.complete,
         jumped=bool(solved.path.jumps),
         seconds=Seconds(solved.law.seconds, seconds),

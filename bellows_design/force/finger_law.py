@@ -52,6 +52,10 @@ class Facts(Protocol):
         """Whether the law was computed for such moments; it is extrapolated beyond."""
         ...
 
+    def ends_within(self, pressure: float, loads: Reals) -> bool:
+        """Whether the laws of root and tip were, which cannot be extended."""
+        ...
+
 
 @dataclass(frozen=True)
 class NoFacts:
@@ -71,6 +75,10 @@ class NoFacts:
 
     def within(self, pressure: float, loads: Reals) -> bool:
         """It holds everywhere."""
+        return True
+
+    def ends_within(self, pressure: float, loads: Reals) -> bool:
+        """They hold everywhere."""
         return True
 
 

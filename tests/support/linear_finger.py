@@ -23,11 +23,12 @@ BEND = np.radians(3.3) / 10
 
 @dataclass(frozen=True)
 class Known:
-    """Facts of a law: unknown rotations, stress (MPa, ± 5 %), and reach (N mm)."""
+    """Facts of a law: unknown rotations, stress (MPa, ± 5 %), and reaches (N mm)."""
 
     rotations: Uncertainty = field(default_factory=Uncertainty)
     von_mises: float = 2.0
     reach: float = 60.0
+    ends_reach: float = 1e3
 
     def touching(self, pressure: float, loads: Reals) -> bool:
         """Where a section bears more than 20 N mm."""
@@ -44,6 +45,10 @@ class Known:
     def within(self, pressure: float, loads: Reals) -> bool:
         """Up to ``reach``, N mm."""
         return bool((abs(loads[:, 0]) < self.reach).all())
+
+    def ends_within(self, pressure: float, loads: Reals) -> bool:
+        """Up to ``ends_reach``, N mm."""
+        return bool((abs(loads[[0, -1], 0]) < self.ends_reach).all())
 
 
 def linear_law(**facts: object) -> FingerLaw:

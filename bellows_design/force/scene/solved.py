@@ -80,23 +80,25 @@ class Solved:
 
     @property
     def _extrapolated(self) -> tuple[str, ...]:
-        """Where the law does not reach."""
-        if not self.beyond:
-            return ()
-        first = self.beyond[0].pressure
-        return (
-            f"from {first:.3g} MPa on sections bear moments beyond those that the law was computed "
-            "for: it is extrapolated there.",
+        """Where the laws do not reach."""
+        return tuple(
+            f"from {states[0].pressure:.3g} MPa on {what} bears moments beyond those that its law "
+            "was computed for: it is extrapolated there."
+            for what, states in (("half a bubble", self.beyond), ("root or tip", self.beyond_ends))
+            if states
         )
 
     @property
     def beyond(self) -> tuple[ChainState, ...]:
-        """States of the path for whose moments the law was not computed."""
-        return tuple(
-            state
-            for state in self.path.steps
-            if not self.law.facts.within(state.pressure, state.loads)
-        )
+        """States of the path for whose moments the law of half a bubble was not computed."""
+        within = self.law.facts.within
+        return tuple(each for each in self.path.steps if not within(each.pressure, each.loads))
+
+    @property
+    def beyond_ends(self) -> tuple[ChainState, ...]:
+        """States of the path for whose moments the laws of root and tip were not computed."""
+        within = self.law.facts.ends_within
+        return tuple(each for each in self.path.steps if not within(each.pressure, each.loads))
 
     @property
     def states(self) -> tuple[ChainState, ...]:

@@ -12,6 +12,7 @@ from bellows_design.budget import DEFAULT
 from bellows_design.design.design import Design
 from bellows_design.design.scenes.blocked import Blocked
 from bellows_design.force import law_of_design
+from bellows_design.force.curve import force_curve
 from bellows_design.force.law.cell_law import TOLERANCE
 from bellows_design.force.law.errors import LawError
 from bellows_design.force.scene.exerted import force_of
@@ -61,6 +62,19 @@ def test_a_law_that_goes_no_further_is_extrapolated_and_that_is_said(
     solved = law_of_design.solved_with_its_law(DESIGN, Blocked(), (0.1,), SILENCE, DEFAULT, None)
     (warning,) = solved.warnings
     assert "it is extrapolated there" in warning
+
+
+def test_root_and_tip_beyond_their_laws_are_told_and_not_extended(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(law_of_design, "cell_law", lambda *_, **__: Reach(1000.0))
+    monkeypatch.delattr(law_of_design, "extended")
+    known = linear_law(reach=1000.0, ends_reach=5.0)
+    monkeypatch.setattr(law_of_design, "finger_law", lambda _: known)
+    solved = law_of_design.solved_with_its_law(DESIGN, Blocked(), (0.1,), SILENCE, DEFAULT, None)
+    (warning,) = solved.warnings
+    assert "root or tip bears moments beyond" in warning
+    assert force_curve(DESIGN, Blocked(), (0.1,), known).extrapolated
 
 
 def test_an_extended_law_is_kept_and_found_by_the_same_scene_only(
