@@ -160,7 +160,7 @@ def _actuator(
         material=design.material.hyperelastic(),
         supports=Supports(clamped=(ROOT,), symmetry=symmetry),
         pressurised=(CAVITY,),
-        axis=_axis(design),
+        axis=slender_axis(design),
         sharp_edge_radius=sharp_edge_radius(design),
         contacts=(*contacts, *neighbour_contacts(design)),
     )
@@ -227,7 +227,7 @@ def sharp_edge_radius(design: Design) -> float:
     return min(SMALLEST_FEATURE, thinnest_wall(design) / 4)
 
 
-def _axis(design: Design) -> SlenderAxis:
+def slender_axis(design: Design) -> SlenderAxis:
     """Stations at the root, at every bubble's and every gap's middle, and at the finger's end."""
     from solver import SlenderAxis
 

@@ -141,8 +141,13 @@ def _key(name: str, field: FieldInfo, value: Any) -> Iterator[str]:
     """A comment on the key, and the key; commented out where its value is left open."""
     yield f"# {'; '.join(_about(field))}"
     empty = value is None or value in ([], {})
-    shown = EXAMPLES.get(name, value) if empty else value
+    shown = _example(name, field, value) if empty else value
     yield f"{'# ' * empty}{name} = {_as_toml(shown)}"
+
+
+def _example(name: str, field: FieldInfo, value: Any) -> Any:
+    """The field's own example, one by its name, or the value."""
+    return field.examples[0] if field.examples else EXAMPLES.get(name, value)
 
 
 def _as_toml(value: Any) -> str:

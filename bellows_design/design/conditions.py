@@ -66,7 +66,10 @@ class Limits(Parameters):
         default="if-available", description="whether a slicer's G-code must pass the leak test"
     )
     scenes: tuple[str, ...] = Field(
-        default=(), max_length=20, description="names of scenes that approval must hold"
+        default=(),
+        max_length=20,
+        description="names of scenes that approval must hold",
+        examples=[["blocked"]],
     )
 
     @field_validator("scenes", mode="before")

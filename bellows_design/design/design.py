@@ -93,7 +93,9 @@ class Design(Parameters):
     )
     limits: Limits = Field(default_factory=Limits)
     scenes: dict[str, Scene] = Field(
-        default_factory=Scenes, description="what stands around the actuator where it exerts forces"
+        default_factory=Scenes,
+        description="what stands around the actuator where it exerts forces",
+        examples=[{"desk": {"kind": "blocked", "support": "wall", "distance": 8.0}}],
     )
 
     def __init__(self, /, **data: Any) -> None:  # "self" may be a key of the file

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from bellows_design.analysis.mesh_plan import finer_plan, first_plan
-from bellows_design.analysis.models import FULL, HALF, UNIT_CELL, AnalysisModel
+from bellows_design.analysis.models import FULL, HALF, UNIT_CELL, AnalysisModel, slender_axis
 from bellows_design.design.bellows_parameters import BellowsParameters
 from bellows_design.design.design import Design
 from bellows_design.design.indent import Indent
@@ -146,8 +146,7 @@ def test_the_cell_is_symmetric_about_its_bubbles_middle_and_its_gaps_middle_move
 @pytest.mark.parametrize("result", TABLE_4, ids=lambda result: result.label)
 def test_stations_ascend_from_root_to_tip_through_every_bubble(result: Result) -> None:
     design = result.build()
-    axis = HALF.problem(design, meshes(HALF)[0]).axis
-    assert axis is not None
+    axis = slender_axis(design)
     assert (axis.stations[0], axis.stations[-1]) == (0, design.bellows.length)
     assert len(axis.stations) == 2 * design.bellows.bubble_count + 1
     assert set(design.bellows.bubble_middles) <= set(axis.stations)
