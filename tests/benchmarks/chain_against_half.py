@@ -37,8 +37,9 @@ from bellows_design.design.design import Design
 from bellows_design.design.shipped import load_design
 from bellows_design.files.json_files import write_json
 from bellows_design.force.chain.finger.chain import Chain
-from bellows_design.force.chain.path import follow
-from bellows_design.force.chain.surroundings import DeadForce, Hold, Surroundings
+from bellows_design.force.chain.loaded_chain import LoadedChain
+from bellows_design.force.chain.path import follow_loads, rest
+from bellows_design.force.chain.surroundings import DeadForce, Hold, LoadPoint, Surroundings
 from bellows_design.force.law.cell_law import CellLaw, cell_law
 from bellows_design.geometry.face_names import CAVITY, ROOT, TIP
 from solver import (
@@ -222,11 +223,13 @@ def law_of(design: Design) -> CellLaw:
 
 
 def chain_row(design: Design, case: Case) -> Row:
-    """Follow the chain, and read."""
+    """Follow the chain as force and pressure grow together, as they do on the half; and read."""
     began = time.perf_counter()
     law, length = law_of(design), design.bellows.length
     chain = Chain.of(design.bellows, law, root=law.root, tip=law.tip)
-    path = follow(chain, _around(case, length), np.linspace(0, design.load.pressure, 6)[1:])
+    loaded, shares = LoadedChain.of(chain, _around(case, length)), np.linspace(0, 1, 6)[1:]
+    points = [LoadPoint(share * design.load.pressure, forces=share) for share in shares]
+    path = follow_loads(loaded, rest(loaded), points)
     state = path.last
     x, z, angle = state.tip
     row: Row = {
