@@ -1,15 +1,16 @@
 """What a finger exerts: half of it as a body against the chain of half bubbles.
 
-    python tests/benchmarks/chain_against_half.py [half | apart | chain | table] [--design NAME]
-        [--target chain_against_half.json]
+    python tests/benchmarks/chain_against_half.py [half | apart | chain | coarse | table]
+        [--design NAME] [--target chain_against_half.json]
 
 Four designs at their own pressure: Prototype 1, ``finger`` and two random ones whose numbers are
 fixed; each free, under a dead force up and down at the tip, blocked by a load cell, and with its
 tip held. ``half`` is half of the body, meshed as coarsely as carries the load, as the chain's cell
 is; ``apart`` the same without contact of neighbouring bubbles, where rows say which walls run
-through each other. ``table`` prints how far the chain is from the half. All is that of the full
-width. Rows are written as they come; those in the file are not computed again. Seconds to minutes
-for each, where walls press against each other an hour.
+through each other. ``coarse`` is the chain on a mesh like the half's, ``chain`` corrected by finer
+ones. ``table`` prints how far the chain is from the half. All is that of the full width. Rows are
+written as they come; those in the file are not computed again. Seconds to minutes for each, where
+walls press against each other an hour.
 
 The force at the tip is a traction that grows with height so that its resultant lies on the lower
 edge: it has no singularity, and turns a rigid tip as a force on that edge does. The load cell holds
@@ -222,11 +223,16 @@ def law_of(design: Design) -> CellLaw:
     return cell_law(design)
 
 
-def chain_row(design: Design, case: Case) -> Row:
-    """Follow the chain as force and pressure grow together, as they do on the half; and read."""
+def chain_row(design: Design, case: Case, corrected: bool = True) -> Row:
+    """Follow the chain as force and pressure grow together, as they do on the half; and read.
+
+    Not ``corrected`` it is as stiff as the law's coarse mesh, about that of the half.
+    """
     began = time.perf_counter()
     law, length = law_of(design), design.bellows.length
-    chain = Chain.of(design.bellows, law, root=law.root, tip=law.tip)
+    pieces = [law.tabulated, law.root, law.tip]
+    inner, root, tip = pieces if corrected else (replace(each, softening=1.0) for each in pieces)
+    chain = Chain.of(design.bellows, inner, root=root, tip=tip)
     loaded, shares = LoadedChain.of(chain, _around(case, length)), np.linspace(0, 1, 6)[1:]
     points = [LoadPoint(share * design.load.pressure, forces=share) for share in shares]
     path = follow_loads(loaded, rest(loaded), points)
@@ -260,36 +266,61 @@ MODELS: dict[str, Callable[[Design, Case], Row]] = {
     "half": half_row,
     "apart": partial(half_row, contact=False),
     "chain": chain_row,
+    "coarse": partial(chain_row, corrected=False),
 }
 
 
+HEADING = (
+    "| design | case | half | chain, same mesh | off by | chain, corrected | s: half, chain |",
+    "|---|---|---|---|---|---|---|",
+)
+
+
 def table(rows: list[Row]) -> str:
-    """How far the chain is from the half, as Markdown."""
+    """How far the chain is from the half, as Markdown: with contact where the half was solved."""
     known = {(row["design"], row["case"], row["model"]): row for row in rows}
-    lines = ["| design | case | half | chain |", "|---|---|---|---|"]
-    for design, case, model in known:
-        if model == "half" and (design, case, "chain") in known:
-            here, there = (known[design, case, name] for name in ("half", "chain"))
-            free = [known.get((design, "free", name)) for name in ("half", "chain")]
-            each = [_said(row, at) for row, at in zip((here, there), free, strict=True)]
-            lines.append(f"| {design} | {case} | {' | '.join(each)} |")
-    return "\n".join(lines)
+    asked = dict.fromkeys((design, case) for design, case, _ in known)
+    return "\n".join((*HEADING, *(_line(known, *each) for each in asked)))
 
 
-def _said(row: Row, free: Row | None) -> str:
+def _line(known: dict[tuple[str, str, str], Row], design: str, case: str) -> str:
+    model = "half" if (design, case, "half") in known else "apart"
+    found = [known.get((design, case, name)) for name in (model, "coarse", "chain")]
+    free = [known.get((design, "free", name)) for name in (model, "coarse", "chain")]
+    half, coarse, chain = (_said(*each) for each in zip(found, free, strict=True))
+    number = [_number(*each) for each in zip(found[:2], free[:2], strict=True)]
+    off = "" if None in number else f"{100 * (number[1] / number[0] - 1):+.1f} %"  # type: ignore
+    seconds = ", ".join("" if row is None else f"{row['seconds']:.3g}" for row in found[::2])
+    half += " (no contact)" * (model == "apart" and bool(half))
+    return f"| {design} | {case} | {half} | {coarse} | {off} | {chain} | {seconds} |"
+
+
+def _number(row: Row | None, free: Row | None) -> float | None:
+    """What is compared: angle, deflection by the force, force along z, or along x."""
+    if row is None or free is None or not row["converged"]:
+        return None
+    if row["case"] == "free":
+        return float(row["tip_angle_deg"])
+    names = {"load cell": "force_z_n", "held tip": "force_x_n"}
+    if row["case"] in names:
+        return float(row[names[row["case"]]])
+    return float(row["tip_z_mm"] - free["tip_z_mm"])
+
+
+def _said(row: Row | None, free: Row | None) -> str:
     """What counts in a row."""
+    if row is None or free is None:
+        return ""
     if not row["converged"]:
         return str(row["message"])
-    angle = f"{row['tip_angle_deg']:.1f} deg"
-    if row["case"] == "free" or free is None:
-        return f"{angle}, ({row['tip_x_mm']:.2f}, {row['tip_z_mm']:.2f}) mm"
+    x, z, angle = row["tip_x_mm"], row["tip_z_mm"], row["tip_angle_deg"]
+    if row["case"] == "free":
+        return f"{angle:.1f}° at ({x:.1f}, {z:.1f}) mm"
     if row["case"] == "load cell":
-        return (
-            f"{row['force_z_n']:.3f} N, x {row['tip_x_mm']:.2f} mm, {row['tip_angle_deg']:.1f} deg"
-        )
+        return f"{row['force_z_n']:.3f} N, x = {x:.1f} mm, {angle:.1f}°"
     if row["case"] == "held tip":
-        return f"{row['force_x_n']:.3f} N, {row['force_z_n']:.3f} N, {row['moment_n_mm']:.1f} N mm"
-    return f"{row['tip_z_mm'] - free['tip_z_mm']:+.3f} mm"
+        return f"{row['force_x_n']:.2f} N, {row['moment_n_mm']:.1f} N mm"
+    return f"{z - free['tip_z_mm']:+.2f} mm"
 
 
 def main() -> None:
