@@ -289,7 +289,8 @@ def _line(known: dict[tuple[str, str, str], Row], design: str, case: str) -> str
     free = [known.get((design, "free", name)) for name in (model, "coarse", "chain")]
     half, coarse, chain = (_said(*each) for each in zip(found, free, strict=True))
     number = [_number(*each) for each in zip(found[:2], free[:2], strict=True)]
-    off = "" if None in number else f"{100 * (number[1] / number[0] - 1):+.1f} %"  # type: ignore
+    alike = model == "half" and None not in number
+    off = f"{100 * (number[1] / number[0] - 1):+.1f} %" if alike else ""
     seconds = ", ".join("" if row is None else f"{row['seconds']:.3g}" for row in found[::2])
     half += " (no contact)" * (model == "apart" and bool(half))
     return f"| {design} | {case} | {half} | {coarse} | {off} | {chain} | {seconds} |"
