@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from bellows_design.budget import Budget
 from bellows_design.design import load_design, with_overrides
 from bellows_design.design.scenes.blocked import Blocked
 from bellows_design.design.scenes.free import Free
@@ -18,7 +19,8 @@ PRESSURES = (0.02, 0.04)
 @pytest.mark.slow
 def test_a_blocked_prototype_pushes_by_its_cells_law_and_balances_its_energy() -> None:
     design = with_overrides(load_design("prototype_1"), ["load.pressure=0.04"])
-    law = finger_law(cell_law(design))
+    unhurried = Budget(mesh_seconds=3600.0, seconds=3600.0)
+    law = finger_law(cell_law(design, budget=unhurried))
     found = force_curve(design, Blocked(), PRESSURES, law)
     assert found.converged and all(each.stable for each in found.curve)
     weak, strong = found.curve
