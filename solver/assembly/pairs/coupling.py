@@ -13,7 +13,7 @@ import numpy as np
 
 from solver.arrays import Integers
 from solver.assembly.pairs.surfaces import SurfacePair
-from solver.kernels.surface_contact import Numbers
+from solver.kernels.closest_points import Numbers
 from solver.linear.sparsity import Pattern, widened
 
 

@@ -61,10 +61,6 @@ class ContactPair(ABC):
         """Add forces to ``residual``, and the tangent to the ``values`` of a ``pattern`` if any."""
 
     @abstractmethod
-    def forces(self, state: State, load: float) -> Reals:
-        """Nodal forces (n, 3) on the body, N; ``face`` numbers all displacements."""
-
-    @abstractmethod
     def changes(self, state: State, load: float, along: Reals, motion: Reals) -> Reals:
         """Changes of the gaps (k, q) along displacements (n, 3) and of a moving plane (2,)."""
 
@@ -97,6 +93,10 @@ class ContactPair(ABC):
         """Pressure per reference area at the quadrature points, (k, q), MPa."""
         pressures: Reals = contact_values(self.face, self.gaps(state, load), PRESSURE)
         return pressures
+
+    def forces(self, state: State, load: float) -> Reals:
+        """Nodal forces (n, 3) on the body, N; of two surfaces those on both, in balance."""
+        return self.gathered(state, load, self.face.areas * self.pressures(state, load))
 
     def passed(self, before: State, load: float, after: State, target: float) -> str:
         """What points have passed through between two states and fractions of the load; or none.

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from solver.arrays import Reals
-from solver.kernels.surface_contact import Flags
+from solver.kernels.closest_points import Flags
 
 MARGIN = 0.5
 """How far beside a facet, in its barycentric coordinates, points still pass through it: the facet

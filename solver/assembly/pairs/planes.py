@@ -76,14 +76,6 @@ class PlanePair(ContactPair):
             np.ascontiguousarray(state.displacement), pattern is not None, residual, values,
         )  # fmt: skip
 
-    def forces(self, state: State, load: float) -> Reals:
-        """Nodal forces (n, 3) of the plane on the body, N; ``face`` numbers all displacements."""
-        residual = np.zeros(state.displacement.size)
-        if self.touches(state, load):
-            nowhere = PlaneUnknowns(np.full(len(state.displacement), np.nan), 0.0)
-            self.add(state, load, nowhere, residual, np.zeros(0), None)
-        return -residual.reshape(-1, 3)
-
     def changes(self, state: State, load: float, along: Reals, motion: Reals) -> Reals:
         """Changes of the gaps; by ``motion`` only at the moving plane."""
         plane = self.plane(state, load)

@@ -82,10 +82,6 @@ class RoundPair(ContactPair):
             self.contact.across, self.contact.radius, pattern is not None, residual, values,
         )  # fmt: skip
 
-    def forces(self, state: State, load: float) -> Reals:
-        """Nodal forces (n, 3) of the rigid body, N."""
-        return self.gathered(state, load, self.face.areas * self.pressures(state, load))
-
     def changes(self, state: State, load: float, along: Reals, motion: Reals) -> Reals:
         """Changes of the gaps along displacements."""
         changes = self.normals(state, load) * at_points(self.face, along)

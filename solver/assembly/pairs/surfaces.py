@@ -28,14 +28,16 @@ from solver.arrays import Integers, Reals
 from solver.assembly.pairs.pair import ContactPair, PlaneUnknowns, at_nodes, at_points, face_of
 from solver.assembly.pairs.passing import through_facets
 from solver.assembly.state import State
-from solver.kernels.surface_contact import (
+from solver.kernels.closest_points import (
     Feet,
     Flags,
     Numbers,
     Surface,
+    find_feet,
+)
+from solver.kernels.surface_contact import (
     assemble_surface_contact,
     bent_gaps,
-    find_feet,
 )
 from solver.linear.sparsity import Pattern
 from solver.mesh.elements import quadratic_shapes, triangle_rule
@@ -174,10 +176,6 @@ class SurfacePair(ContactPair):
             self.face, feet, self.face.nodes + state.displacement, self.other.triangles, points,
             numbers, dofs, entries, pattern is not None, residual, values,
         )  # fmt: skip
-
-    def forces(self, state: State, load: float) -> Reals:
-        """Nodal forces (n, 3) on both surfaces, N; in balance."""
-        return self.gathered(state, load, self.face.areas * self.pressures(state, load))
 
     def changes(self, state: State, load: float, along: Reals, motion: Reals) -> Reals:
         """Changes of the gaps along displacements."""

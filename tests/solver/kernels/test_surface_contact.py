@@ -6,15 +6,17 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from solver.kernels.surface_contact import (
+from solver.kernels.closest_points import (
     CORNER,
     EDGE,
     INTERIOR,
     Feet,
     Surface,
     find_feet,
-    gap_derivatives,
     shapes_at,
+)
+from solver.kernels.surface_contact import (
+    gap_derivatives,
 )
 
 Array = NDArray[np.float64]

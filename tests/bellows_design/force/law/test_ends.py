@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from made_up_law import AT_REST, MadeUp
+from one_potential import assert_derivatives_by_load, assert_derivatives_by_pressure
 
 from bellows_design.design.shipped import load_design
 from bellows_design.errors import BellowsError
@@ -29,7 +30,7 @@ from bellows_design.force.law.computation.short_actuator import (
 )
 from bellows_design.force.law.ends import EndPiece
 from bellows_design.force.law.interpolation.tabulated import TabulatedLaw
-from bellows_design.force.section_law import LinearLaw, SectionResponse
+from bellows_design.force.section_law import LinearLaw
 
 LOADS = np.array([[-70.0, 0.5, 0.2], [-31.0, -1.0, 0.0], [-8.7, 2.0, 1.0], [12.0, 0.1, -0.3]])
 """The first is beyond the moments of the law."""
@@ -74,35 +75,13 @@ def root() -> EndPiece:
     return replace(pieces()[0], softening=1.04)
 
 
-def difference(
-    law: EndPiece, pick: Callable[[SectionResponse], np.ndarray], axis: int, step: float
-) -> np.ndarray:
-    """Central difference by a section load, or by the pressure for axis 3."""
-    found = []
-    for side in (-step, step):
-        shift = np.zeros(4)
-        shift[axis] = side
-        found.append(pick(law.response(0.043 + shift[3], LOADS + shift[:3])))
-    return (found[1] - found[0]) / (2 * step)
-
-
 @pytest.mark.parametrize("axis", range(3))
 def test_motion_and_compliance_are_derivatives_of_the_energy(root: EndPiece, axis: int) -> None:
-    at = root.response(0.043, LOADS)
-    motion = difference(root, lambda r: r.energy, axis, 1e-3)
-    compliance = difference(root, lambda r: r.motion, axis, 1e-3)
-    coupling = difference(root, lambda r: r.volume, axis, 1e-3)
-    assert motion == pytest.approx(at.motion[:, axis], abs=1e-8)
-    assert compliance == pytest.approx(at.compliance[:, :, axis], abs=1e-8)
-    assert coupling == pytest.approx(at.motion_by_pressure[:, axis], abs=1e-5)
+    assert_derivatives_by_load(root, LOADS, axis, 1e-8)
 
 
 def test_the_volume_is_the_derivative_of_the_energy_by_the_pressure(root: EndPiece) -> None:
-    at = root.response(0.043, LOADS)
-    assert difference(root, lambda r: r.energy, 3, 1e-6) == pytest.approx(at.volume, rel=1e-7)
-    assert difference(root, lambda r: r.motion, 3, 1e-6) == pytest.approx(
-        at.motion_by_pressure, rel=1e-5, abs=1e-6
-    )
+    assert_derivatives_by_pressure(root, LOADS, 1e-7)
 
 
 def test_it_passes_through_the_computed_points() -> None:

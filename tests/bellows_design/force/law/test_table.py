@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from made_up_law import AT_REST, MadeUp
+from one_potential import assert_derivatives_by_load, assert_derivatives_by_pressure
 
 from bellows_design.errors import BellowsError
 from bellows_design.force.law.interpolation.table import Table
 from bellows_design.force.law.interpolation.tabulated import TabulatedLaw
-from bellows_design.force.section_law import SectionResponse
 
 LOADS = np.array([[-70.0, 0.5, 0.2], [-31.0, -1.0, 0.0], [-8.7, 2.0, 1.0], [12.0, 0.1, -0.3]])
 """The first is beyond the moments of the tables."""
@@ -25,35 +24,13 @@ def law(request: pytest.FixtureRequest) -> TabulatedLaw:
     return TabulatedLaw(10.0, LAWS[request.param].table(4, 7), 1.04, AT_REST, 0.05)
 
 
-def difference(
-    law: TabulatedLaw, pick: Callable[[SectionResponse], np.ndarray], axis: int, step: float
-) -> np.ndarray:
-    """Central difference by a section load, or by the pressure for axis 3."""
-    found = []
-    for side in (-step, step):
-        shift = np.zeros(4)
-        shift[axis] = side
-        found.append(pick(law.response(0.043 + shift[3], LOADS + shift[:3])))
-    return (found[1] - found[0]) / (2 * step)
-
-
 @pytest.mark.parametrize("axis", range(3))
 def test_motion_and_compliance_are_derivatives_of_the_energy(law: TabulatedLaw, axis: int) -> None:
-    at = law.response(0.043, LOADS)
-    motion = difference(law, lambda r: r.energy, axis, 1e-3)
-    compliance = difference(law, lambda r: r.motion, axis, 1e-3)
-    coupling = difference(law, lambda r: r.volume, axis, 1e-3)
-    assert motion == pytest.approx(at.motion[:, axis], abs=1e-9)
-    assert compliance == pytest.approx(at.compliance[:, :, axis], abs=1e-9)
-    assert coupling == pytest.approx(at.motion_by_pressure[:, axis], abs=1e-6)
+    assert_derivatives_by_load(law, LOADS, axis, 1e-9)
 
 
 def test_the_volume_is_the_derivative_of_the_energy_by_the_pressure(law: TabulatedLaw) -> None:
-    at = law.response(0.043, LOADS)
-    assert difference(law, lambda r: r.energy, 3, 1e-6) == pytest.approx(at.volume, rel=1e-8)
-    assert difference(law, lambda r: r.motion, 3, 1e-6) == pytest.approx(
-        at.motion_by_pressure, rel=1e-6, abs=1e-7
-    )
+    assert_derivatives_by_pressure(law, LOADS, 1e-8)
 
 
 def test_the_compliance_is_symmetric(law: TabulatedLaw) -> None:
