@@ -330,8 +330,20 @@ class Newton:
         step = reached.direction.scaled(target - load)
         moved = self.kinematics.advanced(reached.state, step)
         if self.problem.supports.prescribed:  # displaces nodes without unknowns
-            return self.kinematics.with_supports(moved, target)
+            there = self.kinematics.with_supports(moved, target)
+            if self.assembly.films is None:
+                return there
+            led = self._led(reached.state, load, target)
+            whole = replace(step, displacement=step.displacement + led)
+            return self._with_membrane_stress(reached.state, whole, there)
         return self._with_stress(reached.state, step, moved)
+
+    def _led(self, state: State, load: float, target: float) -> Reals:
+        """What supports lead between two loads to first order, displacements (n, 3)."""
+        step = DIFFERENCE if load < 0.5 else -DIFFERENCE
+        there = self.kinematics.with_supports(state, load + step)
+        led: Reals = (there.displacement - state.displacement) * ((target - load) / step)
+        return led
 
     def _extrapolated(self, found: Correction) -> State:
         """The corrected state with the stress after the correction, to first order."""
@@ -342,13 +354,18 @@ class Newton:
 
         Not used on a cell with a moving plane (see the module's text).
         """
-        films = self.assembly.films
-        if films is not None:
-            moved = replace(moved, membrane_stress=films.extrapolated_stress(state, increment))
+        moved = self._with_membrane_stress(state, increment, moved)
         if not self.slender:
             return moved
         stress = self.assembly.extrapolated_stress(state, increment)
         return replace(moved, geometric_stress=stress)
+
+    def _with_membrane_stress(self, state: State, increment: State, moved: State) -> State:
+        """The same for the stress of membranes; ``moved`` itself without any."""
+        films = self.assembly.films
+        if films is None:
+            return moved
+        return replace(moved, membrane_stress=films.extrapolated_stress(state, increment))
 
     def passed(self, before: State, load: float, after: State, target: float) -> str:
         """Why a state at ``target`` cannot follow one at ``load``: bodies passed; else empty."""
