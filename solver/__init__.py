@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from solver.paths.neighbouring import Neighbouring, neighbouring
     from solver.paths.volume.control import inflate
     from solver.problem.contacts import Contact, SurfaceContact
-    from solver.problem.loads import AxialForce, BodyForce, Couple, PointForce, Traction
+    from solver.problem.loads import AxialForce, BodyForce, Couple, EdgeForce, PointForce, Traction
     from solver.problem.membranes import Membrane
     from solver.problem.problem import Problem, SlenderAxis
     from solver.problem.rigid_bodies import RigidCylinder, RigidPlane, RigidSphere
@@ -54,6 +54,7 @@ __all__ = [
     "Contact",
     "ContactForce",
     "Couple",
+    "EdgeForce",
     "Event",
     "Folds",
     "FoundationSpring",
@@ -126,7 +127,14 @@ __getattr__ = imported_when_asked_for(
         "nonlinear.events": ("Event",),
         "nonlinear.options": ("SolverOptions",),
         "paths.volume.control": ("inflate",),
-        "problem.loads": ("AxialForce", "BodyForce", "Couple", "PointForce", "Traction"),
+        "problem.loads": (
+            "AxialForce",
+            "BodyForce",
+            "Couple",
+            "EdgeForce",
+            "PointForce",
+            "Traction",
+        ),
         "problem.contacts": ("Contact", "SurfaceContact"),
         "problem.rigid_bodies": ("RigidCylinder", "RigidPlane", "RigidSphere"),
         "problem.membranes": ("Membrane",),
