@@ -37,7 +37,13 @@ if TYPE_CHECKING:
     from solver.results.folds import Folds
     from solver.results.reactions import Reaction, reaction
     from solver.results.solution import PathPoint, Solution, cavity_volume, folded_elements
-    from solver.results.stress import Peak, nodal_cauchy, nodal_von_mises, peak_von_mises
+    from solver.results.stress import (
+        Peak,
+        nodal_cauchy,
+        nodal_von_mises,
+        peak_von_mises,
+        peaks_by_region,
+    )
     from solver.results.vtu import write_vtu
     from solver.results.work import Work, work
     from solver.sensitivity.gradients import Gradients, ResponseGradient, gradients
@@ -97,6 +103,7 @@ __all__ = [
     "nodal_cauchy",
     "nodal_von_mises",
     "peak_von_mises",
+    "peaks_by_region",
     "potential",
     "reaction",
     "rotation",
@@ -154,6 +161,12 @@ __getattr__ = imported_when_asked_for(
         "sensitivity.section.shear": ("shear_compliance",),
         "sensitivity.sensitivities": ("Sensitivities", "sensitivities"),
         "sensitivity.smooth_peak": ("SmoothPeak",),
-        "results.stress": ("Peak", "nodal_cauchy", "nodal_von_mises", "peak_von_mises"),
+        "results.stress": (
+            "Peak",
+            "nodal_cauchy",
+            "nodal_von_mises",
+            "peak_von_mises",
+            "peaks_by_region",
+        ),
     },
 )

@@ -36,7 +36,7 @@ from solver.nonlinear.options import SolverOptions
 from solver.problem.problem import Problem
 from solver.results.sharp_edges import trusted_nodes
 from solver.results.solution import PathPoint
-from solver.results.stress import Peak, deviatoric_at_nodes, von_mises
+from solver.results.stress import Peak, deviatoric_at_sides, von_mises
 
 DIFFERENCE = 1e-6
 """Fraction of the load between the two residuals of a difference quotient."""
@@ -215,10 +215,15 @@ class Newton:
         return max(found.size / self.problem.mesh.size, found.pressure_size / PRESSURE_SHARE)
 
     def pressure_size(self, increment: State, moved: State) -> float:
-        """Largest hydrostatic pressure of an increment, relative to its scale in a state."""
-        changes = np.abs(increment.hydrostatic_pressure).max(initial=0.0)
-        scale = np.abs(moved.hydrostatic_pressure).max(initial=0.0)
-        return float(changes / (self.problem.material.shear_modulus + scale))
+        """Largest hydrostatic pressure of an increment, relative to its scale in a state.
+
+        Each region has its own scale: its shear modulus and its largest pressure.
+        """
+        region, moduli = self.problem.mesh.region_of_vertex, self.problem.distribution.region_moduli
+        changes, scales = np.zeros((2, len(moduli)))
+        np.maximum.at(changes, region, np.abs(increment.hydrostatic_pressure))
+        np.maximum.at(scales, region, np.abs(moved.hydrostatic_pressure))
+        return float((changes / (moduli + scales)).max())
 
     def _accepted(
         self, found: Correction, load: float, iterations: int, guess: State, onward: bool
@@ -399,8 +404,8 @@ class Newton:
 
     def _highest_stress(self, state: State) -> float:
         """Largest nodal von Mises stress, MPa."""
-        stress = von_mises(deviatoric_at_nodes(self.problem, state.displacement))
-        return float(stress[self.trusted].max(initial=0.0))
+        stress = von_mises(deviatoric_at_sides(self.problem, state.displacement))
+        return float(stress[self.trusted[self.problem.mesh.sides]].max(initial=0.0))
 
     def notify(
         self,
