@@ -255,6 +255,24 @@ def test_one_part_is_a_mesh_with_one_region(tmp_path: Path) -> None:
     check_outside_is_watertight(mesh)
 
 
+@pytest.mark.parametrize("gap", [8e-6, -8e-6])
+def test_parts_touch_as_exactly_as_cad_files_are_written(gap: float) -> None:
+    boxes = box((4, 4, 2), (0, 0, 0)), box((3, 3, 1), (0.5, 0.5, 2 + gap))
+    mesh = mesh_solids([part(str(k), solid) for k, solid in enumerate(boxes)], COARSE)
+    assert area(mesh, "0|1") == pytest.approx(9, rel=1e-5)
+    check_outside_is_watertight(mesh)
+
+
+def test_a_film_much_thinner_than_its_elements_is_meshed() -> None:
+    """0.1 mm under edges of 2 mm, between two blocks: no better elements are possible there."""
+    layers = {"low": (0, 3), "film": (3, 0.1), "high": (3.1, 3)}
+    parts = [part(name, box((16, 12, h), (0, 0, z))) for name, (z, h) in layers.items()]
+    mesh = mesh_solids(parts, COARSE)
+    assert volume(mesh, "film") == pytest.approx(16 * 12 * 0.1, rel=1e-9)
+    assert jacobian_ratios(mesh.nodes, mesh.tets).min() >= SMALLEST_RATIO
+    check_outside_is_watertight(mesh)
+
+
 CUBE = box((2, 2, 2), (0, 0, 0))
 
 
@@ -263,7 +281,7 @@ CUBE = box((2, 2, 2), (0, 0, 0))
     [
         ([CUBE, box((2, 2, 2), (1, 0, 0))], "'0' and '1' overlap in 4 mm"),
         ([CUBE, box((1, 1, 1), (0.5, 0.5, 0.5))], "'0' and '1' overlap in 1 mm"),
-        ([CUBE, box((2, 2, 2), (3, 0, 0))], "no face of the part '1' touches '0'"),
+        ([CUBE, box((2, 2, 2), (2.001, 0, 0))], "no face of the part '1' touches '0'"),
         ([CUBE, box((2, 2, 2), (2, 2, 0))], "no face of the part '1' touches '0'"),  # an edge
         (
             [
