@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from solver.arrays import Integers, Reals
 from solver.assembly.membranes.membranes import SAMPLES, Membranes
-from solver.assembly.membranes.stiffness import plane_stress
+from solver.assembly.membranes.stiffness import metrics, plane_stress
 from solver.mesh.elements import TRIANGLE_EDGES, quadratic_gradients, triangle_rule
 from solver.mesh.mesh import Mesh
 from solver.problem.membranes import Membrane
@@ -69,7 +69,7 @@ class MembraneForces:
         share = self.areas[compressed].sum() / self.areas.sum()
         place = ", ".join(f"{x:.4g}" for x in self.positions[self.principal[:, 1].argmin()])
         return (
-            f"the membrane {self.surface!r} is compressed over {100 * share:.2g} % of its area, "
+            f"the membrane {self.surface!r} is compressed over {100 * share:.0f} % of its area, "
             f"most by {-self.lowest:.3g} N/mm at ({place}) mm of the undeformed body: a real film "
             "wrinkles there and bears next to none of it."
         )
@@ -96,15 +96,18 @@ def _forces(mesh: Mesh, membrane: Membrane, displacement: Reals) -> MembraneForc
     samples = Membranes.on(mesh, membrane).strains(displacement)
     centre = np.tensordot(2 * triangle_rule().weights, SAMPLES.basis, (0, 1))
     strain = np.tensordot(samples, centre, 1)
-    inverse: Reals = np.linalg.inv(metric)
-    stress = plane_stress(membrane, inverse, strain)
+    stress = plane_stress(membrane, np.asarray(np.linalg.inv(metric), np.float64), strain)
     deformed = metric + 2 * strain
     stretched = np.sqrt(np.linalg.det(metric) / np.linalg.det(deformed))
     principal = _eigenvalues(stress @ deformed) * stretched[:, None]
-    areas = np.sqrt(np.linalg.det(metric)) / 2
-    return MembraneForces(
-        membrane.surface, principal, mesh.nodes[triangles[:, :3]].mean(axis=1), areas
-    )
+    centres = mesh.nodes[triangles[:, :3]].mean(axis=1)
+    return MembraneForces(membrane.surface, principal, centres, _areas(mesh.nodes, triangles))
+
+
+def _areas(nodes: Reals, triangles: Integers) -> Reals:
+    """Areas (k,) of curved triangles, mm^2."""
+    metric, _ = metrics(nodes, triangles)
+    return np.sqrt(np.linalg.det(metric)) @ triangle_rule().weights
 
 
 def _central_metrics(nodes: Reals, triangles: Integers) -> Reals:

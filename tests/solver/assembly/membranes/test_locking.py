@@ -57,4 +57,4 @@ def test_moderate_films_are_as_accurate(young_modulus: float) -> None:
     """They stretch, and move the neutral axis; the last one is as stiff as the strip."""
     body = strip(Membrane("z0", young_modulus, 0.3, 0.5))
     assert abs(body.stretch() - 1) > 1e-3
-    assert 0 < energy_error(body, 4) < 2e-3
+    assert 0 < energy_error(body, 4) < 4e-3

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from films import BentStrip
 from meshes import tube_mesh
+from numpy.typing import NDArray
 from scipy.integrate import quad
 
 from solver import (
@@ -25,36 +26,40 @@ from solver import (
     work,
 )
 
+Array = NDArray[np.float64]
 Meshes = Callable[..., Mesh]
 EXACT = SolverOptions(tolerance=1e-10, loose_tolerance=1e-10, maximum_iterations=20)
 THIRDS = Supports(symmetry={"x0": 0, "y0": 1, "z0": 2})
 
 
-def test_a_stretched_block_shares_the_load_with_the_films_around_it(box: Meshes) -> None:
-    """Equally stiff ones on its four sides, nu = 0: mu (l - 1 / l^2) A + 4 Y t l (l^2 - 1) / 2."""
-    mesh = box((2, 1, 1), (2.0, 1.0, 1.0))
-    films = tuple(Membrane(side, 2.0, 0.0, 0.1) for side in ("y0", "y1", "z0", "z1"))
-    led = Supports(
-        symmetry=THIRDS.symmetry,
-        prescribed={"x1": lambda x, load: load * np.array([[0.4, np.nan, np.nan]]) + 0 * x},
-    )
-    bare, covered = (
-        solve(Problem(mesh, Ogden.neo_hooke(1.0, 1.0), led, membranes=given), options=EXACT)
-        for given in ((), films)
-    )
-    assert covered.converged
-    along = reaction(covered, "x1").force[0]
-    sides = 1 + covered.displacement[:, 1].max()
-    principal = np.concatenate([each.principal for each in membrane_forces(covered)])
-    assert sides != pytest.approx(1 + bare.displacement[:, 1].max(), rel=1e-3)
-    longwise = 0.2 * 1.2 * (1.2**2 - 1) / 2
-    assert principal[:, 0] == pytest.approx(longwise / sides, rel=1e-8)
-    crosswise = 0.2 * sides * (sides**2 - 1) / 2 / 1.2
-    assert principal[:, 1] == pytest.approx(crosswise, rel=1e-8)
-    energy = potential(covered)
-    stored = 4 * 2.0 * 0.2 * (((1.2**2 - 1) / 2) ** 2 + ((sides**2 - 1) / 2) ** 2) / 2
-    assert energy.membranes == pytest.approx(stored, rel=1e-8)
-    assert along > reaction(bare, "x1").force[0] + 3.5 * longwise
+def test_a_film_on_a_block_is_stretched_along_two_axes(box: Meshes) -> None:
+    """By 1.2 and 0.95: its forces and energy are those of plane stress; the block bears the rest.
+
+    Per undeformed width the film bears Y t l (E1 + nu E2) / (1 - nu^2), E = (l^2 - 1) / 2; the
+    block's stress is mu (l1^2 - l3^2).
+    """
+    mesh, film = box((2, 1, 1), (2.0, 1.0, 0.5)), Membrane("z1", 2.0, 0.3, 0.1)
+    one, two = 1.2, 0.95
+
+    def led(axis: int, displacement: float) -> Callable[[Array, float], Array]:
+        along = np.where(np.arange(3) == axis, displacement, np.nan)
+        return lambda places, load: load * along + 0 * places
+
+    motions = {"x1": led(0, 2.0 * (one - 1)), "y1": led(1, two - 1)}
+    supports = Supports(symmetry=THIRDS.symmetry, prescribed=motions)
+    problem = Problem(mesh, Ogden.neo_hooke(1.0), supports, membranes=(film,))
+    solution = solve(problem, options=EXACT)
+    longwise, crosswise = (one**2 - 1) / 2, (two**2 - 1) / 2
+    plane = film.stiffness / (1 - 0.3**2)
+    borne = plane * one * (longwise + 0.3 * crosswise)
+    (forces,) = membrane_forces(solution)
+    assert forces.principal[:, 0] == pytest.approx(borne / two, rel=1e-8)
+    across = plane * two * (crosswise + 0.3 * longwise)
+    assert forces.principal[:, 1] == pytest.approx(across / one, rel=1e-8)
+    stored = plane * (longwise**2 + crosswise**2 + 0.6 * longwise * crosswise)  # over 2 mm^2
+    assert potential(solution).membranes == pytest.approx(stored, rel=1e-8)
+    rubber = (one**2 - (one * two) ** -2) / one * 0.5
+    assert reaction(solution, "x1").force[0] == pytest.approx(rubber + borne, rel=1e-8)
 
 
 def pressure_of_tube(film: Membrane, shear_modulus: float, swelling: float) -> tuple[float, float]:
@@ -109,7 +114,7 @@ def test_work_is_stored_in_body_and_membranes(box: Meshes) -> None:
         stored = potential(last)
         assert stored.membranes > 0.05 * stored.stored
         errors.append(work((*last.at_stops, last)).total / stored.stored - 1)
-    assert abs(errors[1]) < 5e-3
+    assert abs(errors[1]) < 0.02
     assert errors[0] / errors[1] == pytest.approx(4, rel=0.25)
 
 
@@ -117,6 +122,7 @@ def test_a_film_on_the_inner_side_of_a_bend_is_said_to_wrinkle(box: Meshes) -> N
     body = BentStrip(0.025, 20.0, 2.5, 2.0, 0.01, Membrane("z0", 4100.0, 0.0, 0.5))
     solution = solve(body.problem(box((4, 1, 1), (20.0, 2.5, 2.0))), options=EXACT)
     (forces,) = membrane_forces(solution)
-    assert (forces.compressed.all() and forces.highest < -1e-3) or forces.lowest < -1e-3
-    assert "compressed over 1e+02 %" not in forces.warning
+    borne = 0.1 * 0.01 * 2.0**2 / 2  # 4 mu k h^2 / 2, of an outer side that is stretched
+    assert forces.principal[:, 1] == pytest.approx(-borne, rel=0.1)
+    assert "the membrane 'z0' is compressed over 100 % of its area" in forces.warning
     assert "a real film wrinkles there" in forces.warning
