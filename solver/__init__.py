@@ -26,7 +26,8 @@ if TYPE_CHECKING:
     from solver.paths.neighbouring import Neighbouring, neighbouring
     from solver.paths.volume.control import inflate
     from solver.problem.contacts import Contact, SurfaceContact
-    from solver.problem.loads import AxialForce, BodyForce, Couple, PointForce, Traction
+    from solver.problem.loads import AxialForce, BodyForce, Couple, EdgeForce, PointForce, Traction
+    from solver.problem.membranes import Membrane
     from solver.problem.problem import Problem, SlenderAxis
     from solver.problem.rigid_bodies import RigidCylinder, RigidPlane, RigidSphere
     from solver.problem.springs import FoundationSpring, NodeSpring
@@ -34,6 +35,7 @@ if TYPE_CHECKING:
     from solver.results.contacts import ContactForce, contact_forces
     from solver.results.energy import Potential, potential, strain_energy
     from solver.results.folds import Folds
+    from solver.results.membranes.forces import MembraneForces, membrane_forces
     from solver.results.reactions import Reaction, reaction
     from solver.results.solution import PathPoint, Solution, cavity_volume, folded_elements
     from solver.results.stress import (
@@ -59,11 +61,14 @@ __all__ = [
     "Contact",
     "ContactForce",
     "Couple",
+    "EdgeForce",
     "Event",
     "Folds",
     "FoundationSpring",
     "Gradients",
     "Limit",
+    "Membrane",
+    "MembraneForces",
     "Mesh",
     "Neighbouring",
     "NodeSpring",
@@ -96,6 +101,7 @@ __all__ = [
     "gradients",
     "inflate",
     "material_derivatives",
+    "membrane_forces",
     "neighbouring",
     "nodal_cauchy",
     "nodal_von_mises",
@@ -131,14 +137,23 @@ __getattr__ = imported_when_asked_for(
         "nonlinear.events": ("Event",),
         "nonlinear.options": ("SolverOptions",),
         "paths.volume.control": ("inflate",),
-        "problem.loads": ("AxialForce", "BodyForce", "Couple", "PointForce", "Traction"),
+        "problem.loads": (
+            "AxialForce",
+            "BodyForce",
+            "Couple",
+            "EdgeForce",
+            "PointForce",
+            "Traction",
+        ),
         "problem.contacts": ("Contact", "SurfaceContact"),
         "problem.rigid_bodies": ("RigidCylinder", "RigidPlane", "RigidSphere"),
+        "problem.membranes": ("Membrane",),
         "problem.problem": ("Problem", "SlenderAxis"),
         "problem.springs": ("FoundationSpring", "NodeSpring"),
         "results.contacts": ("ContactForce", "contact_forces"),
         "results.energy": ("Potential", "potential", "strain_energy"),
         "results.folds": ("Folds",),
+        "results.membranes.forces": ("MembraneForces", "membrane_forces"),
         "results.reactions": ("Reaction", "reaction"),
         "problem.supports": ("Supports",),
         "results.solution": ("PathPoint", "Solution", "cavity_volume", "folded_elements"),
