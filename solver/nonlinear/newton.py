@@ -99,7 +99,7 @@ class Newton:
         self.slender = self.problem.axis is not None and self.assembly.plane is None
         self.trusted = trusted_nodes(self.problem)
         self.loose_tolerance = min(self.options.loose_tolerance, EDGE_SHARE * mesh.edge / mesh.size)
-        # stress left open must not outweigh a soft spring, nor a film that hardly stretches the body
+        # stress left open must not outweigh a soft spring, nor stretch a stiff film
         if self.problem.springs or self.problem.membranes:
             self.loose_tolerance = min(self.loose_tolerance, self.options.tolerance)
         self.budget = Budget(self.options)

@@ -72,9 +72,9 @@ class Problem:
 
     Raises:
         SolverError: a surface is unknown, has no triangles or is not made of outer faces, the
-            moving plane is not plane, loads, springs, membranes or rigid bodies do not go with it, a contact
-            has no plane, supports and springs leave a rigid motion free, or the supports leave the
-            pressure of an incompressible body undetermined.
+            moving plane is not plane, loads, springs, membranes or rigid bodies do not go with it,
+            a contact has no plane, supports and springs leave a rigid motion free, or the supports
+            leave the pressure of an incompressible body undetermined.
     """
 
     mesh: Mesh

@@ -29,11 +29,10 @@ def sample_stiffness(mesh: Mesh, membrane: Membrane, samples: StrainSamples) -> 
     raised = np.einsum("kqac,mqcd,kqdb->kqmab", inverse, samples.basis, inverse, optimize=True)
     traces = np.einsum("kqab,mqab->kqm", inverse, samples.basis)
     nu = membrane.poisson_ratio
-    products = nu * np.einsum("kq,kqm,kqn->kmn", sizes, traces, traces, optimize=True)
-    products += (1 - nu) * np.einsum(
-        "kq,kqmab,nqab->kmn", sizes, raised, samples.basis, optimize=True
-    )
-    stiffness: Reals = membrane.stiffness / (1 - nu**2) * products
+    volumes = np.einsum("kq,kqm,kqn->kmn", sizes, traces, traces, optimize=True)
+    shapes = np.einsum("kq,kqmab,nqab->kmn", sizes, raised, samples.basis, optimize=True)
+    factor = membrane.stiffness / (1 - nu**2)
+    stiffness: Reals = factor * (nu * volumes + (1 - nu) * shapes)
     return stiffness
 
 
