@@ -331,13 +331,13 @@ class Newton:
         moved = self.kinematics.advanced(reached.state, step)
         if self.problem.supports.prescribed:  # displaces nodes without unknowns
             return self.kinematics.with_supports(moved, target)
-        return self._with_stress(reached.state, step, moved)
+        return self.with_stress(reached.state, step, moved)
 
     def _extrapolated(self, found: Correction) -> State:
         """The corrected state with the stress after the correction, to first order."""
-        return self._with_stress(found.state, found.increment, found.moved)
+        return self.with_stress(found.state, found.increment, found.moved)
 
-    def _with_stress(self, state: State, increment: State, moved: State) -> State:
+    def with_stress(self, state: State, increment: State, moved: State) -> State:
         """``moved`` with the stress after an ``increment`` from ``state``, to first order.
 
         Not used on a cell with a moving plane (see the module's text).
