@@ -197,13 +197,6 @@ def renamed(mesh: Mesh, names: Mapping[str, str]) -> Mesh:
     return Mesh(mesh.nodes, mesh.tets, surfaces)
 
 
-def with_region(mesh: Mesh, name: str, inside: Callable[[Points], NDArray[np.bool_]]) -> Mesh:
-    """The mesh with one more region: the elements with all corners (k, 3) ``inside``."""
-    corners = inside(mesh.nodes[mesh.tets[:, :4]].reshape(-1, 3)).reshape(-1, 4)
-    elements = np.flatnonzero(corners.all(axis=1)).astype(np.int32)
-    return Mesh(mesh.nodes, mesh.tets, mesh.surfaces, {**mesh.regions, name: elements})
-
-
 def tube_mesh(
     inner: float, outer: float, length: float, divisions: tuple[int, int, int], span: float = np.pi
 ) -> Mesh:

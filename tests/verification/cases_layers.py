@@ -7,9 +7,10 @@ from case import Case, Order, Outcome, Row
 from layered_walls import Strip, bimetal_curvature
 from layers import SOFT, STIFF, TIGHT, region_pressure, solved
 from measures import Points, observed_order
-from meshes import box_mesh, with_region
+from meshes import box_mesh
 from scipy.optimize import brentq
 from structures import converged
+from two_materials import beyond
 
 from solver import (
     AxialForce,
@@ -26,9 +27,10 @@ from solver import (
 RUBBERS = Ogden.neo_hooke(SOFT), Ogden.neo_hooke(STIFF)
 
 
-def laminate(divisions: tuple[int, int, int] = (2, 2, 4)) -> Mesh:
+def laminate() -> Mesh:
     """A unit cube; the region ``stiff`` is its upper half in z."""
-    return with_region(box_mesh(divisions), "stiff", lambda at: at[:, 2] > 0.5 - 1e-9)
+    mesh = box_mesh((2, 2, 4))
+    return mesh.with_regions({"stiff": beyond(mesh, 2, 0.5)})
 
 
 def mean_at(mesh: Mesh, values: Points, height: float) -> float:
@@ -113,7 +115,7 @@ HEIGHTS, LENGTH = (0.6, 0.4), 0.2
 def slice_of_strip(elements: int) -> Mesh:
     """A slice 1 mm wide with so many elements over its height, a multiple of 5."""
     mesh = box_mesh((elements // 5, 1, elements), (LENGTH, 1.0, sum(HEIGHTS)))
-    return with_region(mesh, "stiff", lambda at: at[:, 2] > HEIGHTS[0] - 1e-9)
+    return mesh.with_regions({"stiff": beyond(mesh, 2, HEIGHTS[0])})
 
 
 def turned(mesh: Mesh, *loads: Couple | AxialForce) -> float:

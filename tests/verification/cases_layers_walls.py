@@ -7,7 +7,7 @@ from case import Case, Order, Outcome, Row
 from layered_walls import Wall, lame_displacements, mean_stress_in_tube
 from layers import SOFT, STIFF, TIGHT, region_pressure
 from measures import Points, observed_order
-from meshes import sphere_mesh, tube_mesh, with_region
+from meshes import sphere_mesh, tube_mesh
 from structures import along, converged
 
 from solver import Membrane, Mesh, Ogden, Problem, Solution, Supports, solve
@@ -22,14 +22,20 @@ STRETCHES = (1.05, 1.2, 1.5)
 """Of the cavity's radius."""
 
 
-def radius(at: Points) -> Points:
-    return np.asarray(np.linalg.norm(at[:, :2], axis=1))
+def radius(at: Points, dimensions: int = 2) -> Points:
+    """Distances (k,) of places (k, 3) from the axis, or from the centre."""
+    return np.asarray(np.linalg.norm(at[:, :dimensions], axis=1))
+
+
+def layered(mesh: Mesh, dimensions: int = 2) -> Mesh:
+    """The mesh with the region ``stiff`` outside of the interface."""
+    radii = radius(mesh.nodes, dimensions)[mesh.tets[:, :4]].mean(axis=1)
+    return mesh.with_regions({"stiff": np.flatnonzero(radii > BETWEEN)})
 
 
 def quarter(layers: int) -> Mesh:
     """A quarter of a slice of a tube, with so many elements across each of its two layers."""
-    mesh = tube_mesh(INNER, OUTER, 0.3, (2 * layers, 3 * layers, 1), np.pi / 2)
-    return with_region(mesh, "stiff", lambda at: radius(at) > BETWEEN - 1e-9)
+    return layered(tube_mesh(INNER, OUTER, 0.3, (2 * layers, 3 * layers, 1), np.pi / 2))
 
 
 def tube(mesh: Mesh, soft: Ogden, stiff: Ogden, membranes: tuple[Membrane, ...] = ()) -> Problem:
@@ -149,11 +155,7 @@ def filmed() -> Outcome:
 
 def sphere() -> Outcome:
     """Stretches of a spherical shell of two layers."""
-    mesh = with_region(
-        sphere_mesh(INNER, OUTER, 4, 4),
-        "stiff",
-        lambda at: np.linalg.norm(at, axis=1) > BETWEEN - 1e-9,
-    )
+    mesh = layered(sphere_mesh(INNER, OUTER, 4, 4), 3)
     supports = Supports(symmetry={"x0": 0, "y0": 1, "z0": 2})
     materials = {"stiff": RUBBERS[1]}
     problem = Problem(mesh, RUBBERS[0], supports, ("inside",), materials=materials)

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from solver import Mesh
+from solver import Mesh, Ogden, Problem, Supports, reaction, solve
 from solver.errors import MeshingError
 from solver.mesh.elements import tetrahedron_rule, triangle_rule
 from solver.mesh.mid_nodes import SMALLEST_RATIO, jacobian_ratios
@@ -253,6 +253,27 @@ def test_one_part_is_a_mesh_with_one_region(tmp_path: Path) -> None:
     mesh = mesh_solids([Part("all", path, ["skin"] * 6)], COARSE)
     assert set(mesh.surfaces) == {"skin"} and set(mesh.regions) == {"all"}
     check_outside_is_watertight(mesh)
+
+
+def test_meshed_layers_bear_what_each_would_alone() -> None:
+    """Stretched to 1.5 times along the layers: homogeneous if both are incompressible."""
+    solids = {"soft": box((4, 3, 1), (0, 0, 0)), "stiff": box((4, 3, 0.5), (0, 0, 1))}
+    parts = [
+        Part(name, brep(solid), [side_of(face) for face in solid.Faces()])
+        for name, solid in solids.items()
+    ]
+
+    def motion(positions: Array, load: float) -> Array:
+        free = np.full(len(positions), np.nan)
+        return np.stack([load * 0.5 * positions[:, 0], free, free], axis=1)
+
+    supports = Supports(symmetry={"x0": 0, "y0": 1, "z0": 2}, prescribed={"x1": motion})
+    soft, stiff = Ogden.neo_hooke(1.0), Ogden.neo_hooke(30.0)
+    mesh = mesh_solids(parts, COARSE)
+    solution = solve(Problem(mesh, soft, supports, materials={"stiff": stiff}))
+    assert solution.converged, solution.message
+    expected = (1.0 * 3 + 30.0 * 1.5) * (1.5 - 1.5**-2)
+    assert reaction(solution, "x1").force[0] == pytest.approx(expected, rel=1e-6)
 
 
 @pytest.mark.parametrize("gap", [8e-6, -8e-6])
