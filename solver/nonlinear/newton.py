@@ -349,7 +349,7 @@ class Newton:
                 return there
             led = self._led(reached.state, load, target)
             whole = replace(step, displacement=step.displacement + led)
-            return self._with_stress(reached.state, whole, there)
+            return self.with_film_stress(reached.state, whole, there)
         return self._with_stress(reached.state, step, moved)
 
     def _led(self, state: State, load: float, target: float) -> Reals:
@@ -368,18 +368,22 @@ class Newton:
 
         Not used on a cell with a moving plane (see the module's text).
         """
-        moved = self._with_membrane_stress(state, increment, moved)
-        if not (self.slender or self.stiffened):
+        moved = self.with_film_stress(state, increment, moved)
+        if not self.slender or self.stiffened:
             return moved
         stress = self.assembly.extrapolated_stress(state, increment)
         return replace(moved, geometric_stress=stress)
 
-    def _with_membrane_stress(self, state: State, increment: State, moved: State) -> State:
-        """The same for the stress of membranes; ``moved`` itself without any."""
+    def with_film_stress(self, state: State, increment: State, moved: State) -> State:
+        """The same for membranes and stiff regions only; ``moved`` itself without any."""
         films = self.assembly.films
-        if films is None:
+        if films is not None:
+            stress = films.extrapolated_stress(state, increment)
+            moved = replace(moved, membrane_stress=stress)
+        if not self.stiffened:
             return moved
-        return replace(moved, membrane_stress=films.extrapolated_stress(state, increment))
+        stress = self.assembly.extrapolated_stress(state, increment)
+        return replace(moved, geometric_stress=stress)
 
     def passed(self, before: State, load: float, after: State, target: float) -> str:
         """Why a state at ``target`` cannot follow one at ``load``: bodies passed; else empty."""
