@@ -92,7 +92,7 @@ class Membranes:
 
     def tangents(self, stresses: Reals, slopes: Reals) -> Reals:
         """Tangents (k, 18, 18) of the triangles, N/mm, with ``stresses`` in the geometric part."""
-        rows = slopes.reshape(len(self.triangles), -1, 18)
+        rows = slopes.reshape(*slopes.shape[:2], 18)
         tangents: Reals = rows.transpose(0, 2, 1) @ (self.stiffness @ rows)
         bent = np.einsum("km,mab->kab", stresses, SAMPLES.forms)
         blocks = tangents.reshape(-1, 6, 3, 6, 3)
@@ -118,4 +118,4 @@ def from_first(values: Reals) -> Reals:
 def pulled(vectors: Reals) -> Reals:
     """G times vectors of triangles (k, 6, 3): (k, m, 6, 3)."""
     products: Reals = SAMPLES.forms.reshape(-1, 6) @ vectors
-    return products.reshape(len(vectors), -1, 6, 3)
+    return products.reshape(len(vectors), len(SAMPLES.forms), 6, 3)
