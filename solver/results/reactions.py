@@ -47,9 +47,9 @@ def reaction(
     The nodal forces that balance the body, in the components that the surface's support holds.
     Where another support holds the same component of a node, as a clamp does at the edge of a plane
     of symmetry, each takes the integral of the traction on its own surface, weighted by the node's
-    shape function and without what loads, springs and planes exert there, and an equal part of what
-    these leave of the nodal force: the reactions of all supports add up to the nodal forces. Lever
-    arms are those of the deformed body.
+    shape function and without what loads, springs, membranes and planes exert there, and an equal
+    part of what these leave of the nodal force: the reactions of all supports add up to the nodal
+    forces. Lever arms are those of the deformed body.
 
     Args:
         solution: an equilibrium.

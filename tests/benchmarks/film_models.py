@@ -5,7 +5,7 @@
 A strip of silicone, 40 mm long and 5 mm high, in plane strain, with a film of 4100 MPa (paper) of
 several thicknesses under it. Small bending is compared with the closed form of two layers, in which
 every section stays plane: quadratic elements contain it, so that the error is that of the model.
-For large bending a dead traction on the underside turns the tip by half a radian or more, with the film in
+For large bending a dead traction on the underside turns the tip by half a radian, with the film in
 tension; the tip's displacement is compared with that of the same model on a mesh four times as fine
 along x as the finer of two. Meshes are structured: one layer of cells in the film, two in the
 silicone; the rows of Gmsh have edges of 2.5 mm. Films of 0.1 mm with other moduli follow. Prints

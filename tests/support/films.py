@@ -1,4 +1,4 @@
-"""Strips with a film on their underside, bent in the plane: closed form and problem."""
+"""Strips with a film on their underside, bent in the plane; other interpolations of its strain."""
 
 from __future__ import annotations
 
@@ -9,6 +9,8 @@ from numpy.typing import NDArray
 from scipy.optimize import minimize_scalar
 
 from solver import Membrane, Mesh, Ogden, Problem, Supports
+from solver.assembly.membranes.strain import EDGES, GAUSS, StrainSamples, dual_tensors, strain_form
+from solver.mesh.elements import TRIANGLE_EDGES, triangle_rule
 
 Array = NDArray[np.float64]
 
@@ -85,3 +87,22 @@ class BentStrip:
         supports = Supports(symmetry=symmetry, prescribed={"x1": self.moved})
         films = () if self.film is None else (self.film,)
         return Problem(mesh, Ogden.neo_hooke(self.shear_modulus), supports, membranes=films)
+
+
+def whole_strain() -> StrainSamples:
+    """The quadratic strain itself, at six points: what locks."""
+    points = triangle_rule().linear
+    forms = [strain_form(p[None], np.ones(1), edge) for edge in EDGES for p in points]
+    basis = [value[:, None, None] * dual for dual in dual_tensors(EDGES) for value in np.eye(6)]
+    return StrainSamples(np.array(forms), np.array(basis))
+
+
+def edge_averages() -> StrainSamples:
+    """Regge elements of order zero: constant tensors by the averages along the edges."""
+    forms = []
+    for (a, b), edge in zip(TRIANGLE_EDGES, EDGES, strict=True):
+        points = np.zeros((2, 3))
+        points[:, a], points[:, b] = 1 - GAUSS, GAUSS
+        forms.append(strain_form(points, np.full(2, 0.5), edge))
+    basis = np.repeat(dual_tensors(EDGES)[:, None], 6, axis=1)
+    return StrainSamples(np.array(forms), basis)

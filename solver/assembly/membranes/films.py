@@ -37,13 +37,12 @@ class Films:
 
     def add(self, state: State, tangent: bool, residual: Reals, values: Reals) -> None:
         """Add forces to ``residual`` and the tangent to ``values``."""
-        displacement = state.displacement
-        residual += self.numbering.gather(self.membranes.forces(displacement))
+        stresses = self.membranes.stresses(state.displacement)
+        slopes = self.membranes.slopes(state.displacement)
+        residual += self.numbering.gather(self.membranes.summed(stresses, slopes))
         if tangent:
-            stresses = state.membrane_stress
-            if not len(stresses):
-                stresses = self.membranes.stresses(displacement)
-            upper = self.membranes.tangents(displacement, stresses)[:, *np.triu_indices(18)]
+            bent = state.membrane_stress if len(state.membrane_stress) else stresses
+            upper = self.membranes.tangents(bent, slopes)[:, *np.triu_indices(18)]
             used = self.entries >= 0
             np.add.at(values, self.entries[used], upper[used])
 

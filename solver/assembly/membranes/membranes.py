@@ -29,10 +29,11 @@ SAMPLES = regge_samples()
 class Membranes:
     """All membranes of a problem.
 
-    ``triangles`` (k, 6); ``reference`` (k, 6, 3): their undeformed nodes from the first one, mm;
-    ``stiffness`` (k, m, m): D, N mm.
+    ``nodes``: number of the mesh's; ``triangles`` (k, 6); ``reference`` (k, 6, 3): their undeformed
+    nodes from the first one, mm; ``stiffness`` (k, m, m): D, N/mm^3.
     """
 
+    nodes: int
     triangles: Integers
     reference: Reals
     stiffness: Reals
@@ -43,6 +44,7 @@ class Membranes:
         each = [Membranes.on(problem.mesh, membrane) for membrane in problem.membranes]
         count = len(SAMPLES.forms)
         return Membranes(
+            len(problem.mesh.nodes),
             np.concatenate([np.empty((0, 6), np.int32), *(one.triangles for one in each)]),
             np.concatenate([np.empty((0, 6, 3)), *(one.reference for one in each)]),
             np.concatenate([np.empty((0, count, count)), *(one.stiffness for one in each)]),
@@ -53,13 +55,13 @@ class Membranes:
         """A single one."""
         triangles = mesh.triangles(membrane.surface)
         stiffness = sample_stiffness(mesh, membrane, SAMPLES)
-        return Membranes(triangles, from_first(mesh.nodes[triangles]), stiffness)
+        return Membranes(len(mesh.nodes), triangles, from_first(mesh.nodes[triangles]), stiffness)
 
     def strains(self, displacement: Reals) -> Reals:
         """Samples e (k, m) of the strain after a displacement (n, 3), mm^2."""
         moved = from_first(displacement[self.triangles])
         middle = self.reference + moved / 2
-        samples: Reals = np.einsum("mab,kai,kbi->km", SAMPLES.forms, middle, moved, optimize=True)
+        samples: Reals = (pulled(moved) * middle[:, None]).sum(axis=(2, 3))
         return samples
 
     def stresses(self, displacement: Reals) -> Reals:
@@ -79,16 +81,19 @@ class Membranes:
 
     def forces(self, displacement: Reals) -> Reals:
         """Derivative (n, 3) of the energy by the displacement, N."""
-        slopes, stresses = self.slopes(displacement), self.stresses(displacement)
+        return self.summed(self.stresses(displacement), self.slopes(displacement))
+
+    def summed(self, stresses: Reals, slopes: Reals) -> Reals:
+        """Nodal forces (n, 3), N, of ``stresses`` (k, m) and the ``slopes`` of the samples."""
         parts = np.einsum("km,kmai->kai", stresses, slopes)
-        forces = np.zeros_like(displacement)
+        forces = np.zeros((self.nodes, 3))
         np.add.at(forces, self.triangles, parts)
         return forces
 
-    def tangents(self, displacement: Reals, stresses: Reals) -> Reals:
+    def tangents(self, stresses: Reals, slopes: Reals) -> Reals:
         """Tangents (k, 18, 18) of the triangles, N/mm, with ``stresses`` in the geometric part."""
-        slopes = self.slopes(displacement).reshape(len(self.triangles), -1, 18)
-        tangents: Reals = slopes.transpose(0, 2, 1) @ (self.stiffness @ slopes)
+        rows = slopes.reshape(*slopes.shape[:2], 18)
+        tangents: Reals = rows.transpose(0, 2, 1) @ (self.stiffness @ rows)
         bent = np.einsum("km,mab->kab", stresses, SAMPLES.forms)
         blocks = tangents.reshape(-1, 6, 3, 6, 3)
         for axis in range(3):
@@ -97,8 +102,7 @@ class Membranes:
 
     def slopes(self, displacement: Reals) -> Reals:
         """Derivatives (k, m, 6, 3) of the samples by the nodes: G x, mm."""
-        positions = self.reference + from_first(displacement[self.triangles])
-        return SAMPLES.forms @ positions[:, None]
+        return pulled(self.reference + from_first(displacement[self.triangles]))
 
     def worked(self, strains: Reals) -> Reals:
         """Stiffness times samples of a strain (k, m), N/mm."""
@@ -109,3 +113,9 @@ class Membranes:
 def from_first(values: Reals) -> Reals:
     """Vectors of triangles (k, 6, 3) from that of the first node on, which strain does not see."""
     return values - values[:, :1]
+
+
+def pulled(vectors: Reals) -> Reals:
+    """G times vectors of triangles (k, 6, 3): (k, m, 6, 3)."""
+    products: Reals = SAMPLES.forms.reshape(-1, 6) @ vectors
+    return products.reshape(len(vectors), len(SAMPLES.forms), 6, 3)

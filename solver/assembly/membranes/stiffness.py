@@ -22,7 +22,7 @@ from solver.problem.membranes import Membrane
 
 
 def sample_stiffness(mesh: Mesh, membrane: Membrane, samples: StrainSamples) -> Reals:
-    """Stiffness D (k, m, m) between the samples of each triangle: energy e . D e / 2, N mm."""
+    """Stiffness D (k, m, m), N/mm^3, of the samples of each triangle: energy e . D e / 2."""
     rule = triangle_rule()
     metric, inverse = metrics(mesh.nodes, mesh.triangles(membrane.surface))
     sizes = rule.weights * np.sqrt(np.linalg.det(metric))
@@ -44,9 +44,9 @@ def metrics(nodes: Reals, triangles: Integers) -> tuple[Reals, Reals]:
 
 
 def plane_stress(membrane: Membrane, inverse: Reals, strain: Reals) -> Reals:
-    """Second Piola-Kirchhoff stress times thickness, S^ab t, of strains E_ab (..., 2, 2), N/mm.
+    """Second Piola-Kirchhoff stress times thickness, S^ab t, N/mm^3, of strains (..., 2, 2), mm^2.
 
-    ``inverse`` (..., 2, 2): A^ab. In the parameters, like the strain.
+    ``inverse`` (..., 2, 2): A^ab. The components belong to parameters without a unit.
     """
     nu = membrane.poisson_ratio
     traces = np.einsum("...ab,...ab->...", inverse, strain)[..., None, None]

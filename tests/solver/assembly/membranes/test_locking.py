@@ -10,25 +10,15 @@ from functools import partial
 
 import numpy as np
 import pytest
-from films import BentStrip
+from films import BentStrip, whole_strain
 from meshes import box_mesh
 
 import solver.assembly.membranes.membranes as membranes
 from solver import Membrane, SolverOptions, potential, solve
-from solver.assembly.membranes.strain import EDGES, StrainSamples, dual_tensors, strain_form
-from solver.mesh.elements import triangle_rule
 
 PAPER = Membrane("z0", 4100.0, 0.3, 0.5)
 strip = partial(BentStrip, 0.025, 20.0, 2.5, 2.0, -0.06)
 PRECISE = SolverOptions(tolerance=1e-7)
-
-
-def whole_strain() -> StrainSamples:
-    """The quadratic strain itself, at six points: what locks."""
-    points = triangle_rule().linear
-    forms = [strain_form(p[None], np.ones(1), edge) for edge in EDGES for p in points]
-    basis = [value[:, None, None] * dual for dual in dual_tensors(EDGES) for value in np.eye(6)]
-    return StrainSamples(np.array(forms), np.array(basis))
 
 
 def energy_error(body: BentStrip, cells: int) -> float:
