@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import astuple
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Protocol
 
 from bellows_design.analysis.computation import Computation
 from bellows_design.analysis.error_estimate import error_estimate, least_estimate
@@ -190,7 +190,15 @@ def mesh_size(solution: Solution) -> MeshSize:
     return MeshSize(len(problem.mesh.tets), len(problem.mesh.nodes), unknowns)
 
 
-def write_vtu(evaluation: Evaluation, path: Path) -> None:
+class Computed(Protocol):
+    """An evaluation of anything: it has its solutions."""
+
+    @property
+    def computation(self) -> Computation[Any]:
+        """The solutions."""
+
+
+def write_vtu(evaluation: Computed, path: Path) -> None:
     """Write the finest solution for ParaView, completely or not at all."""
     from bellows_design.files.atomic import replacing
     from solver import write_vtu as write
