@@ -97,12 +97,21 @@ class OwnBody(BodyRecord):
         """The name of each face of each part."""
         return face_names(self.parts, self.surfaces)
 
+    def at_pressure(self, pressure: float) -> Self:
+        """The same under another pressure, MPa. Raises ``DesignError`` where a volume is given."""
+        if self.load.by_volume:
+            raise DesignError(
+                f"pressure = {pressure:g} MPa cannot be asked for where load.largest_volume is "
+                "given: the pressure is a result."
+            )
+        return self.model_copy(update={"load": BodyLoad(pressure=pressure)})
+
     @property
     def table(self) -> dict[str, Any]:
         """All but the solids, as JSON and TOML have it."""
         return self.model_dump(mode="json", exclude_none=True)
 
-    @cached_property
+    @property
     def digest(self) -> str:
         """SHA-256 of all that decides how it deforms, the solids too, as 64 hexadecimal digits."""
         content = self.table

@@ -40,11 +40,11 @@ def wall(body: OwnBody) -> float:
 
 def problem(body: OwnBody, mesh: Mesh) -> Problem:
     """The body on a mesh, with its supports, loads and obstacles."""
-    from solver import Problem, Supports
+    from solver import Membrane, Problem, Supports
 
     first, *others = body.parts
-    if others or body.films:
-        raise DesignError("several parts and films cannot be computed yet.")
+    if others:
+        raise DesignError("several parts cannot be computed yet.")
     return Problem(
         mesh=mesh,
         material=first.material.hyperelastic(),
@@ -54,6 +54,10 @@ def problem(body: OwnBody, mesh: Mesh) -> Problem:
         ),
         pressurised=body.under_pressure,
         loads=_weight(body),
+        membranes=tuple(
+            Membrane(each.surface, each.young_modulus, each.poisson_ratio, each.thickness)
+            for each in body.films
+        ),
         sharp_edge_radius=_sharp_edge_radius(body),
         contacts=tuple(_planes(body)),
     )
