@@ -122,19 +122,21 @@ def evaluation_of(computation: Computation[OwnBody]) -> BodyEvaluation:
 
 def _parts(body: OwnBody, solution: Solution) -> tuple[PartState, ...]:
     """Stress and strain of each part."""
-    from bellows_design.analysis.material_range import reached_strain
-    from solver import peak_von_mises
+    from bellows_design.analysis.material_range import strain_of
+    from solver import peaks_by_region
+    from solver.results.strains import reached_logs_by_region
 
-    (part,), peak = body.parts, peak_von_mises(solution)
-    return (
+    peaks, logs = peaks_by_region(solution), reached_logs_by_region(solution)
+    return tuple(
         PartState(
             part.name,
             part.material.name,
-            peak.value,
-            peak.position,
+            peaks[part.name].value,
+            peaks[part.name].position,
             part.material.yield_strength,
-            reached_strain(part.material, solution),
-        ),
+            strain_of(part.material, logs[part.name]),
+        )
+        for part in body.parts
     )
 
 

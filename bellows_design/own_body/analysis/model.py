@@ -8,7 +8,6 @@ import numpy as np
 
 from bellows_design.analysis.models import AnalysisModel, Solving
 from bellows_design.design.lengths import SMALLEST_FEATURE
-from bellows_design.errors import DesignError
 from bellows_design.own_body.analysis.assembly import Assembly
 from bellows_design.own_body.body import OwnBody
 from bellows_design.own_body.conditions import AXES
@@ -42,12 +41,11 @@ def problem(body: OwnBody, mesh: Mesh) -> Problem:
     """The body on a mesh, with its supports, loads and obstacles."""
     from solver import Membrane, Problem, Supports
 
-    first, *others = body.parts
-    if others:
-        raise DesignError("several parts cannot be computed yet.")
+    first, *_ = body.parts
     return Problem(
         mesh=mesh,
         material=first.material.hyperelastic(),
+        materials={part.name: part.material.hyperelastic() for part in body.parts},
         supports=Supports(
             clamped=body.supports.clamped,
             symmetry={name: AXES[axis] for name, axis in body.supports.symmetry.items()},
