@@ -14,7 +14,7 @@ L, W, H = N * 2 + (N + 1) * WALL, 4 + WALL, 8 + WALL
 ECOFLEX = {"mu": [0.024361, 6.6703e-5, 4.5381e-4], "alpha": [1.71378, 7.06787, -3.36588]}
 
 
-def pneunet(size: float = 4.0, largest_volume: float = 8.0) -> OwnBody:
+def pneunet(size: float = 4.0, largest_volume: float = 20.0) -> OwnBody:
     """Meshed with edges of ``size`` and inflated to that multiple of its air."""
     half = cq.Workplane().box(L, W, H + LAYER, centered=False).translate((0, 0, -LAYER))
     half = half.cut(cq.Workplane().box(L - WALL, 1, 2, centered=False))  # inlet and tunnel
