@@ -38,16 +38,18 @@ class Traction:
 
 @dataclass(frozen=True)
 class BodyForce:
-    """A dead force in the whole body.
+    """A dead force in the whole body, or in a region of its mesh.
 
     Attributes:
         density: force per volume of the undeformed body, N/mm^3: a vector, or a function of
             reference positions.
 
             *Shape:* (3,), or (k, 3) in mm -> (k, 3) in N/mm^3.
+        region: name of the region; None for the whole body.
     """
 
     density: Field
+    region: str | None = None
 
 
 @dataclass(frozen=True)
@@ -185,9 +187,20 @@ def _forces(mesh: Mesh, load: Traction | BodyForce | PointForce | EdgeForce) -> 
         tangents = np.einsum("qad,kai->dkqi", rule.gradients, mesh.nodes[cells])
         sizes = np.linalg.norm(np.cross(tangents[0], tangents[1]), axis=-1)
         return _integrated(mesh, cells, rule, sizes, load.stress)
-    cells, rule = mesh.tets, tetrahedron_rule()
+    cells, rule = _elements(mesh, load.region), tetrahedron_rule()
     sizes = np.linalg.det(np.einsum("qad,kai->kqdi", rule.gradients, mesh.nodes[cells]))
     return _integrated(mesh, cells, rule, sizes, load.density)
+
+
+def _elements(mesh: Mesh, region: str | None) -> Integers:
+    """Tetrahedra (k, 10) of a region, or all; ``SolverError`` for an unknown one."""
+    if region is None:
+        return mesh.tets
+    if region not in mesh.regions:
+        known = ", ".join(mesh.regions) or "none"
+        raise SolverError(f"load: unknown region {region!r}; the mesh has {known}.")
+    elements: Integers = mesh.tets[mesh.regions[region]]
+    return elements
 
 
 def _integrated(mesh: Mesh, cells: Integers, rule: Rule, sizes: Reals, field: Field) -> Reals:

@@ -7,10 +7,13 @@ import runpy
 from contextlib import redirect_stdout
 from functools import cache
 from io import StringIO
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
 from inertia import needs_inertia
+
+from bellows_design.own_body.analysis.evaluate import evaluate as evaluated
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
@@ -78,6 +81,17 @@ def test_the_finger_of_ones_own_rubber_bends_as_far_as_its_stiffness_says() -> N
     assert numbers(stress) == pytest.approx([0.408, 3.5], rel=0.05)
     assert numbers(strain) == pytest.approx([35], abs=2)
     assert warning.startswith("warning: distant parts of the actuator run through each other")
+
+
+def test_the_pneunet_bends_more_for_each_pascal_the_more_its_chambers_balloon() -> None:
+    """On a coarse mesh up to eight times its air, where the pressure hardly rises any more."""
+    body = runpy.run_path(str(EXAMPLES / "pneunet.py"))["pneunet"](size=8.0)
+    load = type(body.load)(largest_volume=8.0, points=3)
+    found = evaluated(body.model_copy(update={"load": load}), meshes=1)
+    assert found.converged and 0.03 < found.pressure_mpa < 0.04
+    points = [(0.0, 0.0), *((at.pressure_mpa, at.chord_angle_deg or 0) for at in found.curve)]
+    slopes = [(b - a) / (q - p) for (p, a), (q, b) in pairwise(points)]
+    assert slopes == sorted(slopes) and slopes[-1] > 3 * slopes[0] > 0
 
 
 def numbers(line: str) -> list[float]:
