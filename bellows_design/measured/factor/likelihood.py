@@ -1,0 +1,92 @@
+"""How probable each factor is, given a measured curve and the model's.
+
+For a factor s the residuals are r(s) = y - f(s). With the covariance σ² R of a hypothesis on the
+scatter, the size σ integrated with the prior 1/σ, and an offset (if any) with a constant one,
+
+    p(s) ∝ Σ_R p(R) |R|^(-1/2) |1ᵀ R⁻¹ 1|^(-1/2) (rᵀ P r)^(-m/2),
+
+where P is R⁻¹ without the offset's part and m the number of points, less one with an offset. For
+one R and a model that is linear in s this is Student's t of m - 1 degrees of freedom around the
+generalised least squares; the sum lets the data say how correlated their scatter is. The prior is
+constant in log s.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.linalg import solve_triangular
+
+from bellows_design.measured.factor.noise import Noise
+from solver.arrays import Reals
+
+PROBABILITY = 0.95
+
+
+@dataclass(frozen=True, eq=False)
+class Likelihood:
+    """Probabilities of factors.
+
+    Attributes:
+        logs: Natural logarithms of the factors, equally spaced. *Shape:* (k,).
+        density: Their probabilities, of sum 1. *Shape:* (k,).
+    """
+
+    logs: Reals
+    density: Reals
+
+    @property
+    def factor(self) -> float:
+        """The median."""
+        return self.quantile(0.5)
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """Factors that enclose 95 %, as much below as above."""
+        left = (1 - PROBABILITY) / 2
+        return self.quantile(left), self.quantile(1 - left)
+
+    def quantile(self, probability: float) -> float:
+        """The factor below which that much lies."""
+        step = self.logs[1] - self.logs[0]
+        edges = np.append(self.logs - step / 2, self.logs[-1] + step / 2)
+        below = np.append(0.0, np.cumsum(self.density))
+        return float(np.exp(np.interp(probability, below, edges)))
+
+    @property
+    def cut(self) -> tuple[float, float]:
+        """Probability at either end of the factors looked at, by the highest."""
+        highest = float(self.density.max())
+        return float(self.density[0]) / highest, float(self.density[-1]) / highest
+
+
+def likelihood(logs: Reals, residuals: Reals, noises: Iterable[Noise], offset: bool) -> Likelihood:
+    """The probabilities of factors with these residuals.
+
+    Args:
+        logs: Logarithms of the factors. *Shape:* (k,).
+        residuals: Measurement less model for each factor. *Shape:* (n, k).
+        noises: Hypotheses on the scatter.
+        offset: Whether all residuals may have a constant in common.
+    """
+    terms = np.array([_log_density(residuals, noise, offset) for noise in noises])
+    density = np.exp(terms - terms.max()).sum(axis=0)
+    return Likelihood(logs, density / density.sum())
+
+
+def _log_density(residuals: Reals, noise: Noise, offset: bool) -> Reals:
+    """(k,) logarithm of p(R) times the density under that hypothesis, but for a constant."""
+    white = solve_triangular(noise.root, residuals, lower=True)
+    count, more = residuals.shape[0], 0.0
+    if offset:
+        ones = solve_triangular(noise.root, np.ones(count), lower=True)
+        size = float(ones @ ones)
+        white = white - np.outer(ones, ones @ white) / size
+        count, more = count - 1, -0.5 * np.log(size)
+    squares = np.maximum((white**2).sum(axis=0), np.finfo(float).tiny)
+    result: Reals = (
+        np.log(noise.weight) - 0.5 * noise.log_determinant + more - 0.5 * count * np.log(squares)
+    )
+    return result

@@ -1,0 +1,88 @@
+"""What the scatter of a measured curve may be like: its course and its correlation.
+
+Neither is known beforehand. Sizes of the scatter go with pressure as stated by a column, or are
+constant, or go with the value. Correlated scatter, as of a camera that moves or of friction in a
+gauge, is an Ornstein-Uhlenbeck process over pressure, with uncorrelated scatter beside it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.linalg import cholesky
+
+from solver.arrays import Reals
+
+LENGTHS = (0.1, 0.3, 1.0, 3.0)
+"""Correlation lengths by the range of pressures."""
+SHARES = (0.5, 0.9, 1.0)
+"""Of the variance that is correlated."""
+FLOORS = (0.005, 0.05, 0.3)
+"""Of the largest value: scatter in proportion to the value does not fall below that."""
+LEAST_SPREAD = 0.25
+"""Of the median: a stated standard deviation that is smaller, of a few readings, is by chance."""
+
+
+@dataclass(frozen=True, eq=False)
+class Noise:
+    """A hypothesis on the scatter of a curve's points, but for its size.
+
+    Attributes:
+        root: Lower triangular root of the covariance. *Shape:* (n, n).
+        log_determinant: Of the covariance.
+        weight: Probability before the data.
+    """
+
+    root: Reals
+    log_determinant: float
+    weight: float
+
+
+def hypotheses(
+    pressure: Reals, value: Reals, spread: Reals | None, zero: float | None = None
+) -> Iterator[Noise]:
+    """All hypotheses on the scatter of points at ``pressure`` (n,), the model's ``value`` (n,).
+
+    Values that are counted from that at the pressure ``zero`` have its scatter in common.
+    """
+    count = pressure.size
+    differences = np.eye(count)
+    if zero is not None:
+        pressure, value = np.append(pressure, zero), np.append(value, 0.0)
+        spread = None if spread is None else np.append(spread, np.median(spread))
+        differences = np.hstack([differences, -np.ones((count, 1))])
+    correlations = list(_correlations(pressure))
+    sizes = list(_sizes(value, spread))
+    for size in sizes:
+        for weight, correlation in correlations:
+            covariance = differences @ (np.outer(size, size) * correlation) @ differences.T
+            root = cholesky(covariance, lower=True)
+            determinant = 2 * float(np.log(np.diag(root)).sum())
+            yield Noise(root, determinant, weight / len(sizes))
+
+
+def _sizes(value: Reals, spread: Reals | None) -> Iterator[Reals]:
+    """Standard deviations (n,) up to a factor."""
+    if spread is not None and np.median(spread) > 0:
+        yield np.maximum(spread, LEAST_SPREAD * float(np.median(spread)))
+        return
+    size = np.abs(value)
+    largest = float(size.max()) or 1.0
+    yield np.full(value.size, largest)
+    for floor in FLOORS:
+        yield np.maximum(size, floor * largest)
+
+
+def _correlations(pressure: Reals) -> Iterator[tuple[float, Reals]]:
+    """Probabilities and correlation matrices: none as probable as all the others together."""
+    count = pressure.size
+    yield 0.5, np.eye(count)
+    span = float(np.ptp(pressure)) or 1.0
+    apart = np.abs(pressure[:, None] - pressure[None, :]) / span
+    each = 0.5 / (len(LENGTHS) * len(SHARES))
+    for length in LENGTHS:
+        correlated = np.exp(-apart / length)
+        for share in SHARES:
+            yield each, share * correlated + (1 - share) * np.eye(count)

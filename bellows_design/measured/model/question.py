@@ -1,0 +1,40 @@
+"""What is asked of the model: which quantity, how it is defined, and up to which pressure."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from bellows_design.design.scenes.scene import Scene
+from bellows_design.measured.quantities import TANGENT, Quantity
+from solver.arrays import Reals
+
+POINTS = 16
+"""Pressures at which the model is solved: between them cubics are off by 1e-3 of the largest value
+where bubbles begin to touch, less elsewhere."""
+
+
+@dataclass(frozen=True)
+class Question:
+    """A curve that is asked of the model.
+
+    Attributes:
+        quantity: What is measured.
+        angle: ``tangent`` or ``chord``, of a bending angle.
+        scene: What stands around a bellows, of a force; None for the usual load cell.
+        scene_name: What messages call it.
+        sign: Of the pressures: -1 for a vacuum.
+    """
+
+    quantity: Quantity
+    angle: str = TANGENT
+    scene: Scene | None = None
+    scene_name: str = "blocked"
+    sign: float = 1.0
+
+    def pressures(self, highest: float) -> Reals:
+        """Pressures of a curve up to the size ``highest``, MPa, signed, without zero. *Shape:*
+        (POINTS,).
+        """
+        return self.sign * highest * np.arange(1, POINTS + 1) / POINTS
