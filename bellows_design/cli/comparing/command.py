@@ -77,6 +77,14 @@ SceneName = Annotated[
         "tip presses on a load cell at its rest height.",
     ),
 ]
+PartName = Annotated[
+    str | None,
+    typer.Option(
+        "--part",
+        metavar="NAME",
+        help="Of an own body: the part whose stiffness is in question; without it all.",
+    ),
+]
 ColumnNames = Annotated[
     str | None,
     typer.Option(
@@ -132,6 +140,7 @@ def compare(
     zero_at: ZeroAt = None,
     quantity: QuantityOption = None,
     scene: SceneName = None,
+    part: PartName = None,
     columns: ColumnNames = None,
     units: UnitNames = None,
     skip: Skip = None,
@@ -165,7 +174,7 @@ def compare(
         compared = CompareOptions(zero_at, fit, fit_offset, material_uncertainty)
         options = ComparingOptions(
             DesignOptions(name, tuple(settings or ())), data, reading, compared, angle.value, scene,
-            write_material, plot, BudgetOptions(memory, mesh_seconds, seconds), not no_cache,
+            part, write_material, plot, BudgetOptions(memory, mesh_seconds, seconds), not no_cache,
         )  # fmt: skip
         return compare_answer(options)
 

@@ -19,10 +19,12 @@ from bellows_design.measured.comparison import CompareOptions, Comparison
 from bellows_design.measured.reading.load import CurveOptions
 
 if TYPE_CHECKING:
+    from bellows_design.budget import Budget
     from bellows_design.design.design import Design
     from bellows_design.materials.material import Material
     from bellows_design.measured.model.question import Question
     from bellows_design.measured.reading.curve import MeasuredCurve
+    from bellows_design.own_body import OwnBody
     from bellows_design.reports.measured import MeasuredReport
 
 
@@ -36,6 +38,7 @@ class ComparingOptions:
     compared: CompareOptions = field(default_factory=CompareOptions)
     angle: str = "tangent"
     scene: str | None = None
+    part: str | None = None
     material: Path | None = None
     plot: Path | None = None
     limits: BudgetOptions = field(default_factory=BudgetOptions)
@@ -70,16 +73,27 @@ def compare_answer(options: ComparingOptions) -> Answer:
 
 def _compared(options: ComparingOptions) -> Comparison:
     """The comparison; all that can be refused is refused before anything is solved."""
-    from bellows_design.measured.comparison import compare
-    from bellows_design.measured.model.bellows import BellowsModel
+    from bellows_design.cli.own_body.evaluate import body_named
     from bellows_design.measured.reading.load import load_curve
 
     require_working_folder()
     require_address_space(EVALUATION)
-    design = options.design.load()
+    body = body_named(options.design)
     measured = load_curve(options.data, options.reading)
-    question = _question(options, design, measured)
     budget = options.limits.budget()
+    if body is not None:
+        return _of_body(options, body, measured, budget)
+    return _of_bellows(options, measured, budget)
+
+
+def _of_bellows(options: ComparingOptions, measured: MeasuredCurve, budget: Budget) -> Comparison:
+    from bellows_design.measured.comparison import compare
+    from bellows_design.measured.model.bellows import BellowsModel
+
+    if options.part is not None:
+        raise DesignError("--part is for own bodies: a bellows is one part.")
+    design = options.design.load()
+    question = _question(options, design, measured)
     with solving() as progress:
         store = usual_store(progress) if options.cached else None
         model = BellowsModel(design, progress, budget, store)
@@ -88,11 +102,39 @@ def _compared(options: ComparingOptions) -> Comparison:
         )
 
 
+def _of_body(
+    options: ComparingOptions, body: OwnBody, measured: MeasuredCurve, budget: Budget
+) -> Comparison:
+    """Of a body of one's own, of which nothing is kept."""
+    from bellows_design.measured.comparison import compare
+    from bellows_design.measured.model.body import BodyModel
+    from bellows_design.measured.model.question import Question
+
+    if options.scene is not None:
+        raise DesignError("--scene is for bellows: an own body has obstacles in its file.")
+    question = Question(measured.quantity, options.angle, sign=_sign(measured))
+    with solving() as progress:
+        model = BodyModel(body, progress, budget, options.part)
+        if options.material is not None and model.materials > 1:
+            raise DesignError(
+                "--write-material writes one material, but the parts have several; --part names "
+                "one of them."
+            )
+        return compare(
+            body.name, model.material, measured, partial(model.curve, question), options.compared
+        )
+
+
+def _sign(measured: MeasuredCurve) -> float:
+    """Of the pressures: -1 for a vacuum."""
+    return -1.0 if measured.pressure[-1] < 0 else 1.0
+
+
 def _question(options: ComparingOptions, design: Design, measured: MeasuredCurve) -> Question:
     from bellows_design.design.scenes.scene import check_fits, named_scene
     from bellows_design.measured.model.question import Question
 
-    sign = -1.0 if measured.pressure[-1] < 0 else 1.0
+    sign = _sign(measured)
     if options.scene is None:
         return Question(measured.quantity, options.angle, sign=sign)
     name, scene = named_scene(options.scene, design.scenes)

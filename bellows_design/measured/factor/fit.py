@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bellows_design.measured.factor.likelihood import Likelihood, likelihood
-from bellows_design.measured.factor.noise import hypotheses
+from bellows_design.measured.factor.noise import scatter_of
 from bellows_design.measured.model.curve import ModelCurve
 from bellows_design.measured.reading.curve import MeasuredCurve
 from solver.arrays import Reals
@@ -28,7 +28,9 @@ FACTORS = 161
 """Looked at over the whole range, and again where they are probable."""
 RESOLVED = 20
 """Steps that an interval has at least, for its ends to be known to a hundredth of it."""
-MOST_LOOKS = 4
+AROUND = 3
+"""Steps on either side of those that are probable, which are looked at, too."""
+MOST_LOOKS = 5
 NEGLIGIBLE = 1e-3
 """Of the highest density: what may lie at either end of the factors looked at."""
 PROBABLE = 1e-7
@@ -111,7 +113,7 @@ def fit_factor(
     wanted = float(pressure.max()) / (0.7 * start)
     used = counted & (pressure <= model.reach(0.8 * start))
     while int(used.sum()) >= FEWEST_POINTS:
-        found = _likelihood(measured.at(used), model, offset, zero)
+        found = _likelihood(measured.at(used), model, offset, zero, start)
         if found.cut[0] < NEGLIGIBLE:
             return _fitted(found, measured, model, used, counted, offset, wanted)
         used = used & (pressure < 0.9 * pressure[used].max())
@@ -153,19 +155,27 @@ def _nearest(measured: MeasuredCurve, model: ModelCurve, counted: Mask, offset: 
 
 
 def _likelihood(
-    part: MeasuredCurve, model: ModelCurve, offset: bool, zero: float | None
+    part: MeasuredCurve, model: ModelCurve, offset: bool, zero: float | None, near: float
 ) -> Likelihood:
-    """Of the factors for which the model reaches all points; again and again where it is high."""
-    lowest = max(LEAST_FACTOR, _least_reaching(model, float(np.abs(part.pressure).max())))
-    logs = np.linspace(np.log(lowest), np.log(MOST_FACTOR), FACTORS)
-    found = _on(logs, part, model, offset, zero, float(np.exp(logs.mean())))
+    """Of the factors for which the model reaches all points; again and again where it is high.
+
+    ``near`` is about the factor: the course of the scatter is taken from the model there.
+    """
+    pressure = np.abs(part.pressure)
+    scatter = scatter_of(pressure, model.values(pressure, near), part.spread, zero)
+
+    def on(logs: Reals) -> Likelihood:
+        residuals = part.value[:, None] - model.table(pressure, np.exp(logs))
+        return likelihood(logs, residuals, scatter, offset)
+
+    lowest = max(LEAST_FACTOR, _least_reaching(model, float(pressure.max())))
+    found = on(np.linspace(np.log(lowest), np.log(MOST_FACTOR), FACTORS))
     for _ in range(MOST_LOOKS):
         probable = np.flatnonzero(found.density > PROBABLE * found.density.max())
-        first, last = max(probable[0] - 1, 0), min(probable[-1] + 1, found.logs.size - 1)
-        logs = np.linspace(found.logs[first], found.logs[last], FACTORS)
-        found = _on(logs, part, model, offset, zero, found.factor)
+        first, last = max(probable[0] - AROUND, 0), min(probable[-1] + AROUND, FACTORS - 1)
+        found = on(np.linspace(found.logs[first], found.logs[last], FACTORS))
         low, high = np.log(found.interval)
-        if high - low > RESOLVED * (logs[1] - logs[0]):
+        if high - low > RESOLVED * (found.logs[1] - found.logs[0]):
             break
     return found
 
@@ -175,20 +185,6 @@ def _least_reaching(model: ModelCurve, pressure: float) -> float:
     factors = np.geomspace(LEAST_FACTOR, MOST_FACTOR, 4 * FACTORS)
     reaching = [each for each in factors if model.reach(float(each)) >= pressure]
     return float(reaching[0]) if reaching else MOST_FACTOR / 2
-
-
-def _on(
-    logs: Reals,
-    part: MeasuredCurve,
-    model: ModelCurve,
-    offset: bool,
-    zero: float | None,
-    near: float,
-) -> Likelihood:
-    pressure = np.abs(part.pressure)
-    values = model.table(pressure, np.exp(logs))
-    noises = hypotheses(pressure, model.values(pressure, near), part.spread, zero)
-    return likelihood(logs, part.value[:, None] - values, noises, offset)
 
 
 def _fitted(
@@ -228,7 +224,7 @@ def _undetermined(low: float, high: float, found: Likelihood, measured: Measured
         ends = f"{low:.2g} or anything above"
     return (
         f"{measured.name} does not determine the stiffness: factors of {ends} explain it about as "
-        "well; the curve is flat or scatters too much, or a unit is wrong."
+        "well; it is flat, scatters too much or has another course than the model, or a unit is wrong."
     )
 
 

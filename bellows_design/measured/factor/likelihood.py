@@ -13,13 +13,11 @@ constant in log s.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.linalg import solve_triangular
 
-from bellows_design.measured.factor.noise import Noise
+from bellows_design.measured.factor.noise import Scatter
 from solver.arrays import Reals
 
 PROBABILITY = 0.95
@@ -62,31 +60,24 @@ class Likelihood:
         return float(self.density[0]) / highest, float(self.density[-1]) / highest
 
 
-def likelihood(logs: Reals, residuals: Reals, noises: Iterable[Noise], offset: bool) -> Likelihood:
+def likelihood(logs: Reals, residuals: Reals, scatter: Scatter, offset: bool) -> Likelihood:
     """The probabilities of factors with these residuals.
 
     Args:
         logs: Logarithms of the factors. *Shape:* (k,).
         residuals: Measurement less model for each factor. *Shape:* (n, k).
-        noises: Hypotheses on the scatter.
+        scatter: Hypotheses on the scatter.
         offset: Whether all residuals may have a constant in common.
     """
-    terms = np.array([_log_density(residuals, noise, offset) for noise in noises])
-    density = np.exp(terms - terms.max()).sum(axis=0)
-    return Likelihood(logs, density / density.sum())
-
-
-def _log_density(residuals: Reals, noise: Noise, offset: bool) -> Reals:
-    """(k,) logarithm of p(R) times the density under that hypothesis, but for a constant."""
-    white = solve_triangular(noise.root, residuals, lower=True)
-    count, more = residuals.shape[0], 0.0
+    white, count = scatter.whitening @ residuals, residuals.shape[0]
+    terms = scatter.log_weight - 0.5 * scatter.log_determinant
     if offset:
-        ones = solve_triangular(noise.root, np.ones(count), lower=True)
-        size = float(ones @ ones)
-        white = white - np.outer(ones, ones @ white) / size
-        count, more = count - 1, -0.5 * np.log(size)
-    squares = np.maximum((white**2).sum(axis=0), np.finfo(float).tiny)
-    result: Reals = (
-        np.log(noise.weight) - 0.5 * noise.log_determinant + more - 0.5 * count * np.log(squares)
-    )
-    return result
+        ones = scatter.whitening.sum(axis=2)
+        sizes = (ones**2).sum(axis=1)
+        along = np.einsum("hn,hnk->hk", ones, white) / sizes[:, None]
+        white = white - ones[:, :, None] * along[:, None, :]
+        count, terms = count - 1, terms - 0.5 * np.log(sizes)
+    squares = np.maximum((white**2).sum(axis=1), np.finfo(float).tiny)
+    exponents = terms[:, None] - 0.5 * count * np.log(squares)
+    density = np.exp(exponents - exponents.max()).sum(axis=0)
+    return Likelihood(logs, density / density.sum())

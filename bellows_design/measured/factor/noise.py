@@ -11,7 +11,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.linalg import cholesky
 
 from solver.arrays import Reals
 
@@ -26,23 +25,24 @@ LEAST_SPREAD = 0.25
 
 
 @dataclass(frozen=True, eq=False)
-class Noise:
-    """A hypothesis on the scatter of a curve's points, but for its size.
+class Scatter:
+    """Hypotheses on the scatter of n points, but for its size.
 
     Attributes:
-        root: Lower triangular root of the covariance. *Shape:* (n, n).
-        log_determinant: Of the covariance.
-        weight: Probability before the data.
+        whitening: Of each, the inverse of the lower triangular root of its covariance. *Shape:*
+            (h, n, n).
+        log_determinant: Of each covariance. *Shape:* (h,).
+        log_weight: Logarithm of each one's probability before the data. *Shape:* (h,).
     """
 
-    root: Reals
-    log_determinant: float
-    weight: float
+    whitening: Reals
+    log_determinant: Reals
+    log_weight: Reals
 
 
-def hypotheses(
+def scatter_of(
     pressure: Reals, value: Reals, spread: Reals | None, zero: float | None = None
-) -> Iterator[Noise]:
+) -> Scatter:
     """All hypotheses on the scatter of points at ``pressure`` (n,), the model's ``value`` (n,).
 
     Values that are counted from that at the pressure ``zero`` have its scatter in common.
@@ -53,14 +53,17 @@ def hypotheses(
         pressure, value = np.append(pressure, zero), np.append(value, 0.0)
         spread = None if spread is None else np.append(spread, np.median(spread))
         differences = np.hstack([differences, -np.ones((count, 1))])
-    correlations = list(_correlations(pressure))
-    sizes = list(_sizes(value, spread))
-    for size in sizes:
-        for weight, correlation in correlations:
-            covariance = differences @ (np.outer(size, size) * correlation) @ differences.T
-            root = cholesky(covariance, lower=True)
-            determinant = 2 * float(np.log(np.diag(root)).sum())
-            yield Noise(root, determinant, weight / len(sizes))
+    sizes = np.array(list(_sizes(value, spread)))
+    weights, correlations = zip(*_correlations(pressure), strict=True)
+    covariance = np.einsum("si,cij,sj->scij", sizes, np.array(correlations), sizes)
+    covariance = covariance.reshape(-1, *covariance.shape[2:])
+    roots = np.linalg.cholesky(differences @ covariance @ differences.T)
+    diagonal = np.diagonal(roots, axis1=1, axis2=2)
+    return Scatter(
+        np.linalg.inv(roots),
+        2 * np.log(diagonal).sum(axis=1),
+        np.log(np.tile(weights, len(sizes)) / len(sizes)),
+    )
 
 
 def _sizes(value: Reals, spread: Reals | None) -> Iterator[Reals]:

@@ -20,7 +20,7 @@ from bellows_design.measured.model.curve import (
     ScaledByPressure,
     StoredCurve,
 )
-from bellows_design.measured.model.question import Question
+from bellows_design.measured.model.question import FACTORS, LEAST_PART, WITHIN, Question
 from bellows_design.measured.quantities import ANGLE, CHORD, FORCE
 from bellows_design.progress import Progress
 from solver.arrays import Reals
@@ -32,16 +32,6 @@ if TYPE_CHECKING:
 
 HIGHEST = 0.6
 """MPa. The highest pressure that a design may have; of a vacuum the atmosphere."""
-
-WITHIN = 0.97
-"""Of the pressure at which a load path ended: so far a second evaluation goes, which then reaches
-its pressure on all meshes and has an error estimate."""
-
-LEAST_PART = 1e-3
-"""Of the highest pressure: where the curve of a finger with weight begins."""
-
-FACTORS = (0.6, 1.0, 1.7)
-"""Of the stiffness, at which a finger with weight is computed."""
 
 
 @dataclass(frozen=True)

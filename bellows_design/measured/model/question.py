@@ -14,6 +14,17 @@ POINTS = 16
 """Pressures at which the model is solved: between them cubics are off by 1e-3 of the largest value
 where bubbles begin to touch, less elsewhere."""
 
+WITHIN = 0.97
+"""Of the pressure at which a load path ended: so far a second evaluation goes, which then reaches
+its pressure on all meshes and has an error estimate."""
+
+LEAST_PART = 1e-3
+"""Of the highest pressure: where a curve begins that does not begin at nothing, because of
+weight."""
+
+FACTORS = (0.6, 1.0, 1.7)
+"""Of the stiffness, at which a part is computed where one curve does not tell all of them."""
+
 
 @dataclass(frozen=True)
 class Question:
