@@ -224,7 +224,7 @@ def _undetermined(low: float, high: float, found: Likelihood, measured: Measured
         ends = f"{low:.2g} or anything above"
     return (
         f"{measured.name} does not determine the stiffness: factors of {ends} explain it about as "
-        "well; it is flat, scatters too much or has another course than the model, or a unit is wrong."
+        "well; it is flat, scatters too much, runs otherwise than the model, or a unit is wrong."
     )
 
 

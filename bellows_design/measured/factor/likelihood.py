@@ -7,8 +7,9 @@ scatter, the size σ integrated with the prior 1/σ, and an offset (if any) with
 
 where P is R⁻¹ without the offset's part and m the number of points, less one with an offset. For
 one R and a model that is linear in s this is Student's t of m - 1 degrees of freedom around the
-generalised least squares; the sum lets the data say how correlated their scatter is. The prior is
-constant in log s.
+generalised least squares; the sum lets the data say how correlated their scatter is. A scatter σ
+beyond a tenth of the values is improbable, by exp(-(σ/0.1)²/2) at the most probable σ. The prior of
+the factor is constant in log s.
 """
 
 from __future__ import annotations
@@ -79,5 +80,6 @@ def likelihood(logs: Reals, residuals: Reals, scatter: Scatter, offset: bool) ->
         count, terms = count - 1, terms - 0.5 * np.log(sizes)
     squares = np.maximum((white**2).sum(axis=1), np.finfo(float).tiny)
     exponents = terms[:, None] - 0.5 * count * np.log(squares)
+    exponents -= 0.5 * squares / count / scatter.usual[:, None] ** 2
     density = np.exp(exponents - exponents.max()).sum(axis=0)
     return Likelihood(logs, density / density.sum())

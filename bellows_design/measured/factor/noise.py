@@ -24,6 +24,11 @@ LEAST_SPREAD = 0.25
 """Of the median: a stated standard deviation that is smaller, of a few readings, is by chance."""
 
 
+USUAL = 0.1
+"""Of the largest value. More scatter is improbable: a smooth curve would be scatter altogether, and
+any factor would do."""
+
+
 @dataclass(frozen=True, eq=False)
 class Scatter:
     """Hypotheses on the scatter of n points, but for its size.
@@ -33,11 +38,13 @@ class Scatter:
             (h, n, n).
         log_determinant: Of each covariance. *Shape:* (h,).
         log_weight: Logarithm of each one's probability before the data. *Shape:* (h,).
+        usual: Of each, the size from which on it is improbable. *Shape:* (h,).
     """
 
     whitening: Reals
     log_determinant: Reals
     log_weight: Reals
+    usual: Reals
 
 
 def scatter_of(
@@ -63,6 +70,7 @@ def scatter_of(
         np.linalg.inv(roots),
         2 * np.log(diagonal).sum(axis=1),
         np.log(np.tile(weights, len(sizes)) / len(sizes)),
+        np.repeat(USUAL * np.abs(value).max() / sizes.max(axis=1), len(weights)),
     )
 
 

@@ -20,7 +20,14 @@ from bellows_design.measured.model.curve import (
     ScaledByPressure,
     StoredCurve,
 )
-from bellows_design.measured.model.question import FACTORS, LEAST_PART, WITHIN, Question
+from bellows_design.measured.model.question import (
+    FACTORS,
+    LEAST_PART,
+    UNKNOWN_ERROR,
+    WITHIN,
+    Question,
+    mesh_count,
+)
 from bellows_design.measured.quantities import ANGLE, CHORD, FORCE
 from bellows_design.progress import Progress
 from solver.arrays import Reals
@@ -101,9 +108,9 @@ class BellowsModel:
             found = self._evaluated(design, question, WITHIN * abs(found.pressure_mpa))
         points = [(each.pressure_mpa, each.bending_angle_deg) for each in found.curve]
         percent = found.error_estimate.bending_angle_percent
-        known = () if percent is not None else ("its error by the mesh is not known",)
+        known = () if percent is not None else (UNKNOWN_ERROR,)
         notes = (
-            f"the model is the {found.model.name} on {len(found.meshes)} meshes",
+            f"the model is the {found.model.name} on {mesh_count(len(found.meshes))}",
             *known,
             *found.warnings,
         )

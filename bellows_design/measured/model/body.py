@@ -18,7 +18,14 @@ from bellows_design.measured.model.curve import (
     ScaledByPressure,
     StoredCurve,
 )
-from bellows_design.measured.model.question import FACTORS, LEAST_PART, WITHIN, Question
+from bellows_design.measured.model.question import (
+    FACTORS,
+    LEAST_PART,
+    UNKNOWN_ERROR,
+    WITHIN,
+    Question,
+    mesh_count,
+)
 from bellows_design.measured.quantities import ANGLE, CHORD, FORCE
 from bellows_design.own_body import BodyEvaluation, BodyLoad, OwnBody
 from bellows_design.own_body.analysis.readings import BodyReading
@@ -154,9 +161,9 @@ def _curve(found: BodyEvaluation, question: Question, ending: str) -> StoredCurv
 
 
 def _notes(found: BodyEvaluation, percent: float | None) -> Iterator[str]:
-    yield f"the model is {found.reason}, on {len(found.meshes)} meshes"
+    yield f"the model is {found.reason}, on {mesh_count(len(found.meshes))}"
     if percent is None:
-        yield "its error by the mesh is not known"
+        yield UNKNOWN_ERROR
     yield from found.warnings
 
 

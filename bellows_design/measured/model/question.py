@@ -10,7 +10,7 @@ from bellows_design.design.scenes.scene import Scene
 from bellows_design.measured.quantities import TANGENT, Quantity
 from solver.arrays import Reals
 
-POINTS = 16
+POINTS = 12
 """Pressures at which the model is solved: between them cubics are off by 1e-3 of the largest value
 where bubbles begin to touch, less elsewhere."""
 
@@ -24,6 +24,16 @@ weight."""
 
 FACTORS = (0.6, 1.0, 1.7)
 """Of the stiffness, at which a part is computed where one curve does not tell all of them."""
+
+UNKNOWN_ERROR = (
+    "its error by the mesh is not known, as one mesh was all that the time allowed (--seconds "
+    "gives it more)"
+)
+
+
+def mesh_count(count: int) -> str:
+    """How many meshes there are, in words."""
+    return f"{count} mesh{'es' * (count > 1)}"
 
 
 @dataclass(frozen=True)
