@@ -23,7 +23,7 @@ def model(
     reach: float = 0.25, error: float = 0.0, ending: str = "", by_force: bool = False
 ) -> ScaledByPressure:
     """The model up to a pressure, with an estimated error as a part of the value."""
-    pressure = np.linspace(0, reach, 26)
+    pressure = np.append(np.arange(0, reach - 1e-9, 0.01), reach)
     value = bend(pressure) / (100 if by_force else 1)
     return ScaledByPressure(StoredCurve(pressure, value, error * value, ending), by_force)
 

@@ -11,8 +11,8 @@ from bellows_design.measured.quantities import TANGENT, Quantity
 from solver.arrays import Reals
 
 POINTS = 12
-"""Pressures at which the model is solved: between them cubics are off by 1e-3 of the largest value
-where bubbles begin to touch, less elsewhere."""
+"""Pressures at which the model is solved. What cubics between them are off by is part of the
+curve's error."""
 
 WITHIN = 0.97
 """Of the pressure at which a load path ended: so far a second evaluation goes, which then reaches

@@ -24,7 +24,8 @@ def test_a_curve_without_scatter_gives_its_factor_back(factor: float, by_force: 
     )
     assert found.factor is not None and found.used.all()
     assert found.factor.value == pytest.approx(factor, rel=1e-4)
-    assert found.factor.high / found.factor.low < 1.001
+    assert found.factor.scatter[1] / found.factor.scatter[0] < 1.001
+    assert found.factor.high / found.factor.low < 1.01  # of the model's cubics
     assert found.factor.agrees == (factor == 1.0)
 
 
@@ -44,7 +45,7 @@ def test_the_models_error_widens_the_interval_by_what_it_makes_of_the_factor() -
     part = made_up(np.random.default_rng(1), 1.2, scatter=1e-4)
     exact, rough = fit_factor(part, model()).factor, fit_factor(part, model(error=0.05)).factor
     assert exact is not None and rough is not None
-    assert exact.model_percent == 0 and exact.value == pytest.approx(rough.value, rel=1e-6)
+    assert exact.model_percent < 0.05 and exact.value == pytest.approx(rough.value, rel=1e-6)
     softer = fit_factor(measured(1.05 * part.value, part.pressure), model()).factor
     assert softer is not None
     assert rough.model_percent / 100 == pytest.approx(math.log(exact.value / softer.value), rel=0.1)

@@ -48,7 +48,7 @@ def test_one_curve_tells_all_factors() -> None:
     at = np.array([0.04, 0.06])
     assert angle.values(at, 2.0) == pytest.approx(1000 * (at / 2) ** 2, rel=1e-2)
     assert force.values(at, 2.0) == pytest.approx(2 * angle.values(at, 2.0))
-    assert force.errors(at, 2.0) == pytest.approx(2 * 0.01 * at / 2)
+    assert force.errors(at, 2.0) == pytest.approx(2 * angle.errors(at, 2.0))
     assert angle.reach(2.0) == pytest.approx(0.2)
     assert np.isnan(angle.values(np.array([0.21]), 2.0)).all()
     table = force.table(at, np.array([1.0, 2.0]))
@@ -76,7 +76,15 @@ def test_a_zeroed_curve_is_nothing_at_its_zero_and_takes_its_error_with_it() -> 
     zeroed, at = Zeroed(plain, 0.03), np.array([0.03, 0.08])
     assert zeroed.values(at)[0] == 0 and zeroed.errors(at)[0] == 0
     assert zeroed.values(at, 1.5)[1] == pytest.approx(float(np.diff(plain.values(at, 1.5))[0]))
-    assert zeroed.errors(at)[1] == pytest.approx(0.01 * 0.05)
+    assert zeroed.errors(at)[1] == pytest.approx(float(np.ptp(plain.errors(at))))
+
+
+def test_the_error_between_points_is_foreseen() -> None:
+    between = np.linspace(0.01, 0.1, 400)
+    for exact in (lambda p: np.sin(12 * p), lambda p: np.exp(40 * p), lambda p: np.tanh(30 * p)):
+        found = StoredCurve(PRESSURE, exact(PRESSURE), 0 * PRESSURE)
+        missed = np.abs(found.values(between) - exact(between)).max()
+        assert missed < found.errors(between).max() < 40 * missed
 
 
 def test_a_curve_of_one_point_is_refused() -> None:
