@@ -198,12 +198,12 @@ class Computed(Protocol):
         """The solutions."""
 
 
-def write_vtu(evaluation: Computed, path: Path) -> None:
+def write_vtu(evaluation: Computed, path: Path | str) -> None:
     """Write the finest solution for ParaView, completely or not at all."""
     from bellows_design.files.atomic import replacing
     from solver import write_vtu as write
 
-    with replacing(path) as temporary:
+    with replacing(Path(path)) as temporary:
         write(temporary, evaluation.computation.finest)
 
 

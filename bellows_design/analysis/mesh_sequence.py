@@ -193,7 +193,9 @@ def _next_seconds(computation: Computation[Subject]) -> float:
     """Time that a solve on the next mesh will take, s, from that on the finest."""
     finest = computation.finest
     each = finest.seconds / max(1, finest.factorizations)
-    return FACTORIZATIONS * each * computation.model.growth**SOLVE_ORDER
+    model = computation.model
+    count = finest.factorizations if model.from_rest else FACTORIZATIONS
+    return count * each * model.growth**SOLVE_ORDER
 
 
 FACTORIZATIONS = 8

@@ -68,7 +68,8 @@ class AnalysisModel(Generic[Subject]):
     repeating part (the unit cell: a bubble) or the whole. ``levels`` meshes are used unless more
     accuracy is asked for; ``growth`` is how many times more elements each next one has, about.
     ``wall``: the thickness, mm, in which edges of a mesh are measured; ``solve`` applies the load;
-    ``peak_tolerance``: wanted difference of stresses near the highest, as a fraction of it.
+    ``peak_tolerance``: wanted difference of stresses near the highest, as a fraction of it;
+    ``from_rest``: whether every mesh follows the whole path of the load, not the first only.
     """
 
     name: str
@@ -80,6 +81,7 @@ class AnalysisModel(Generic[Subject]):
     levels: int
     growth: float
     peak_tolerance: float = PEAK_TOLERANCE
+    from_rest: bool = False
 
     @property
     def refinement(self) -> Refinement:

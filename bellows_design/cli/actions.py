@@ -107,10 +107,9 @@ def evaluate(
     require_working_folder()
     require_address_space(EVALUATION)
     pressures = () if pressure is None else parse_pressures(pressure)
-    body, budget = body_named(options), limits.budget()
+    body, budget = body_named(options, model, derivatives), limits.budget()
     if body is not None:
-        asked = (body, model, pressures, accuracy, vtu, budget, derivatives)
-        return own_body.evaluate(*asked)
+        return own_body.evaluate(body, pressures, accuracy, vtu, budget)
     chosen = options.load(pressures[-1] if pressures else None)
     require_file(vtu, ".vtu")
     from bellows_design.analysis import evaluate as analysis

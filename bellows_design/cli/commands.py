@@ -106,14 +106,16 @@ def list_designs(as_json: AsJson = False) -> None:
 
 @app.command()
 def init(
-    kind: Annotated[Kind, typer.Argument(metavar="KIND", help="design, printer or material.")],
+    kind: Annotated[
+        Kind, typer.Argument(metavar="KIND", help="design, printer, material or body.")
+    ],
     file: Annotated[Path, typer.Argument(metavar="FILE", help="File to write: .toml.")],
     force: Annotated[
         bool, typer.Option("--force", help="Replace the file if it is there.")
     ] = False,
     as_json: AsJson = False,
 ) -> None:
-    """Write a commented design, printer or material to start from."""
+    """Write a commented design, printer, material or own body to start from."""
     answer(lambda: actions.init(kind, file, force), as_json)
 
 

@@ -1,7 +1,7 @@
-"""Commented files to start from: a design, a printer profile, a material.
+"""Commented files to start from: a design, a printer profile, a material, an own body.
 
-Everything in them comes from the records themselves: the keys, what they mean, their units and
-bounds; the values are those of a shipped design, printer and material.
+Everything in the first three comes from the records themselves: the keys, what they mean, their
+units and bounds; the values are those of a shipped design, printer and material.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ from typing import Any
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
+from bellows_design.cli.own_body.template import body_template
 from bellows_design.validation.sentences import nested_model
 
 DESIGN, PRINTER, MATERIAL = "finger", "prusa_i3", "ninjaflex"
@@ -47,10 +48,13 @@ class Kind(StrEnum):
     DESIGN = "design"
     PRINTER = "printer"
     MATERIAL = "material"
+    BODY = "body"
 
 
 def template(kind: Kind, name: str) -> str:
     """A commented TOML file of that kind, for a thing called ``name``."""
+    if kind is Kind.BODY:
+        return body_template(name)
     header, model, values = {
         Kind.DESIGN: _design,
         Kind.PRINTER: _printer,

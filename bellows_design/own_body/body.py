@@ -39,6 +39,9 @@ TIP, CAVITY = "tip", "cavity"
 """Surfaces with a meaning: whose rotation is the bending angle, and what is under pressure."""
 
 
+MOST_PARTS = 50
+
+
 class OwnBody(BodyRecord):
     """A body of one's own with all that decides how it deforms, as one frozen value.
 
@@ -63,7 +66,7 @@ class OwnBody(BodyRecord):
 
     name: str = Field(description="letters, digits, _ and -, at most 64")
     description: str = Field(default="", max_length=2000, description="one line of text")
-    parts: tuple[BodyPart, ...] = Field(min_length=1, max_length=50)
+    parts: tuple[BodyPart, ...]
     surfaces: dict[str, tuple[Selection, ...]] = Field(default_factory=dict)
     supports: BodySupports = Field(default_factory=BodySupports)
     pressurised: Names | None = None
@@ -74,13 +77,22 @@ class OwnBody(BodyRecord):
     tip: Tip = Field(default_factory=Tip)
     mesh: BodyMesh = Field(default_factory=BodyMesh)
 
+    def __init__(self, /, **data: Any) -> None:  # "self" may be a key of the file
+        try:
+            super().__init__(**data)
+        except ValidationError as error:
+            raise DesignError(*sentences(error, type(self))) from None
+
     @classmethod
     def of(cls, data: Mapping[str, Any]) -> Self:
         """Body of a plain table, with the solids in it. Raises ``DesignError``."""
-        try:
-            return cls.model_validate(dict(data))
-        except ValidationError as error:
-            raise DesignError(*sentences(error, cls)) from None
+        return cls(**data)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, OwnBody):
+            return NotImplemented
+        texts = (self.name, self.description) == (other.name, other.description)
+        return texts and self.digest == other.digest
 
     def __hash__(self) -> int:
         return hash((self.name, self.digest))
@@ -104,7 +116,8 @@ class OwnBody(BodyRecord):
                 f"pressure = {pressure:g} MPa cannot be asked for where load.largest_volume is "
                 "given: the pressure is a result."
             )
-        return self.model_copy(update={"load": BodyLoad(pressure=pressure)})
+        fields = {name: getattr(self, name) for name in type(self).model_fields}
+        return type(self)(**fields | {"load": {"pressure": pressure}})
 
     @property
     def table(self) -> dict[str, Any]:
@@ -151,6 +164,7 @@ class OwnBody(BodyRecord):
                 f"{BETWEEN}, other than {OUTSIDE}",
             )
         parts = [part.name for part in self.parts]
+        require(0 < len(parts) <= MOST_PARTS, f"parts must be 1 to {MOST_PARTS}, not {len(parts)}")
         require(len(set(parts)) == len(parts), "two parts have the same name")
         outer = (*self.surfaces, OUTSIDE)
         between = tuple(

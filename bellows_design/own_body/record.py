@@ -4,25 +4,17 @@ from __future__ import annotations
 
 from typing import Annotated, Any
 
-from pydantic import BeforeValidator, Field, ValidationError, model_validator
+from pydantic import BeforeValidator, Field, model_validator
 
-from bellows_design.errors import DesignError
 from bellows_design.validation.parameters import Parameters
-from bellows_design.validation.sentences import sentences
 
 
 class BodyRecord(Parameters):
     """Frozen table of an own body's file; lists stand for tuples.
 
     Raises:
-        DesignError: A value leaves its bounds; one sentence for each problem.
+        pydantic.ValidationError: A value leaves its bounds. ``OwnBody`` makes sentences of it.
     """
-
-    def __init__(self, /, **data: Any) -> None:
-        try:
-            super().__init__(**data)
-        except ValidationError as error:
-            raise DesignError(*sentences(error, type(self))) from None
 
     @model_validator(mode="before")
     @classmethod

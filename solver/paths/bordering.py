@@ -68,13 +68,14 @@ def corrected(newton: Newton, guess: State, load: float, row: Row) -> Equilibriu
             )
         load += change
         moved = newton.kinematics.advanced(state, increment)
-        state = newton.kinematics.with_motions(moved, load)
+        there = newton.kinematics.with_motions(moved, load)
         newton.effort.iterations += 1
-        newton.notify("iteration", load, state, iteration, correction)
+        newton.notify("iteration", load, there, iteration, correction)
         tolerance = newton.options.tolerance
-        small = newton.pressure_size(increment, state) <= pressure_bound(tolerance)
+        small = newton.pressure_size(increment, there) <= pressure_bound(tolerance)
         if small and correction <= tolerance * size:
-            return equilibrium_point(newton, state, load, iteration)
+            return equilibrium_point(newton, there, load, iteration)
+        state = newton.with_membrane_stress(state, increment, there)
     return EquilibriumPoint(
         guess, load, iteration, failure=f"no convergence in {iteration} iterations"
     )

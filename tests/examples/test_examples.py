@@ -12,6 +12,8 @@ from pathlib import Path
 import pytest
 from inertia import needs_inertia
 
+from bellows_design.own_body.analysis.evaluate import evaluate as evaluated
+
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
 
@@ -78,6 +80,18 @@ def test_the_finger_of_ones_own_rubber_bends_as_far_as_its_stiffness_says() -> N
     assert numbers(stress) == pytest.approx([0.408, 3.5], rel=0.05)
     assert numbers(strain) == pytest.approx([35], abs=2)
     assert warning.startswith("warning: distant parts of the actuator run through each other")
+
+
+def test_the_pneunet_balloons_and_bends_towards_its_film() -> None:
+    """On a coarse mesh: most of its angle comes past the pressure at which its air grows fast."""
+    pneunet = runpy.run_path(str(EXAMPLES / "pneunet.py"))["pneunet"]
+    found = evaluated(pneunet(size=8.0), meshes=1)
+    assert found.converged
+    angles = [at.chord_angle_deg or 0 for at in found.curve]
+    pressures = [at.pressure_mpa for at in found.curve]
+    assert angles == sorted(angles) and angles[0] > 0
+    assert pressures[2] > 0.5 * pressures[-1] and angles[2] < 0.5 * angles[-1]
+    assert 0.03 < found.pressure_mpa < 0.05
 
 
 def numbers(line: str) -> list[float]:

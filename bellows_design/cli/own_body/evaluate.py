@@ -18,8 +18,10 @@ if TYPE_CHECKING:
     from bellows_design.own_body import OwnBody
 
 
-def body_named(options: DesignOptions) -> OwnBody | None:
+def body_named(options: DesignOptions, model: str, derivatives: bool) -> OwnBody | None:
     """The own body that is named; None where the name is not that of a body's file.
+
+    ``model`` and ``derivatives`` are options of ``evaluate`` that no body takes.
 
     Raises ``DesignError``.
     """
@@ -33,24 +35,21 @@ def body_named(options: DesignOptions) -> OwnBody | None:
     table = read_toml(path, str(path), "design")
     if not is_body(table):
         return None
-    if options.settings:
-        raise DesignError("--set changes designs of bellows; change an own body in its file.")
+    _require_no_options_of_bellows(options, model, derivatives)
     return body_of(table, path.parent)
 
 
 def evaluate(
     body: OwnBody,
-    model: str,
     pressures: Sequence[float],
     accuracy: float | None,
     vtu: Path | None,
     budget: Budget,
-    derivatives: bool,
 ) -> Answer:
     """Compute the body under its load; nothing is kept."""
     from bellows_design.reports.own_bodies.tables import body_tables
 
-    chosen = _checked(body, model, pressures, derivatives)
+    chosen = body.at_pressure(pressures[-1]) if pressures else body
     require_file(vtu, ".vtu")
     from bellows_design.analysis.evaluate import write_vtu
     from bellows_design.own_body.analysis import evaluate as analysis
@@ -63,10 +62,11 @@ def evaluate(
     return Answer(found.to_dict(), body_tables(found), status, failed)
 
 
-def _checked(body: OwnBody, model: str, pressures: Sequence[float], derivatives: bool) -> OwnBody:
-    """The body under the last of the pressures, if there are any. Raises ``DesignError``."""
+def _require_no_options_of_bellows(options: DesignOptions, model: str, derivatives: bool) -> None:
+    """Raise ``DesignError`` for an option that only designs of bellows take."""
+    if options.settings:
+        raise DesignError("--set changes designs of bellows; change an own body in its file.")
     if model != "auto":
         raise DesignError(f"--model {model}: an own body has one model only; leave it out.")
     if derivatives:
         raise DesignError("--sensitivities are those of a design of bellows; leave them out.")
-    return body.at_pressure(pressures[-1]) if pressures else body

@@ -114,7 +114,7 @@ def evaluation_of(computation: Computation[OwnBody]) -> BodyEvaluation:
         meshes=tuple(BodyMeshReading(*each) for each in zip(sizes, ways, strict=True)),
         solver=effort(computation.solutions),
         seconds=computation.seconds,
-        path=tuple(path_reading(body, point) for point in path),
+        path=tuple(path_reading(body, finest.problem.mesh, point) for point in path),
         curve=tuple(reading(body, each) for each in (*finest.at_stops, finest)),
         computation=computation,
     )

@@ -142,4 +142,5 @@ def model_of(body: OwnBody, meshes: int) -> AnalysisModel[OwnBody]:
         levels=meshes,
         growth=1.6,
         peak_tolerance=PEAK_TOLERANCE,
+        from_rest=body.load.by_volume,
     )

@@ -63,20 +63,34 @@ class BodyReading:
     cavity_volume_mm3: float | None
 
 
-def path_reading(body: OwnBody, point: PathPoint) -> PathReading:
-    """The whole body at a point of a path."""
+def path_reading(body: OwnBody, mesh: Mesh, point: PathPoint) -> PathReading:
+    """The whole body at a point of a path on a mesh."""
+    symmetric = {0, 2} & set(_crossed(body, mesh))  # then the whole tip does not turn
+    angle = None if math.isnan(point.rotation) else 0.0 if symmetric else point.rotation
     return PathReading(
         point.pressure + 0.0,  # never -0
-        None if math.isnan(point.rotation) else point.rotation,
+        angle,
         point.max_von_mises,
         body.supports.share * point.volume if body.under_pressure else None,
         point.stable,
     )
 
 
+def _crossed(body: OwnBody, mesh: Mesh) -> list[int]:
+    """Axes of the planes of symmetry that the surface ``tip`` lies on both sides of."""
+    if TIP not in mesh.surfaces:
+        return []
+    tip = mesh.surface_nodes(TIP)
+    return [
+        AXES[axis]
+        for plane, axis in body.supports.symmetry.items()
+        if np.isin(tip, mesh.surface_nodes(plane)).any()
+    ]
+
+
 def reading(body: OwnBody, solution: Solution) -> BodyReading:
     """The whole body at an equilibrium."""
-    point = path_reading(body, solution.path[-1])
+    point = path_reading(body, solution.problem.mesh, solution.path[-1])
     moved = _tip_displacement(body, solution)
     return BodyReading(
         pressure_mpa=solution.pressure + 0.0,
@@ -96,8 +110,7 @@ def _tip_displacement(body: OwnBody, solution: Solution) -> tuple[float, float, 
         moved = displacement_at(mesh, solution.displacement, body.tip.point)
     elif TIP in mesh.surfaces:
         moved = surface_mean(mesh, TIP, solution.displacement)
-        for axis in body.supports.symmetry.values():
-            moved[AXES[axis]] = 0.0  # what the other half does is opposite
+        moved[_crossed(body, mesh)] = 0.0  # the tip's other half moves the opposite way
     else:
         return None
     x, y, z = (float(each) for each in moved)

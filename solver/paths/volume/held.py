@@ -98,7 +98,8 @@ def at_volume(newton: Newton, start: HeldVolume, wanted: float) -> HeldVolume:
     here = start.found
     assert here.direction is not None
     change = (wanted - start.volume) / start.compliance
-    guess = newton.kinematics.advanced(here.state, newton.system.expanded(here.direction), change)
+    step = newton.system.expanded(change * here.direction)
+    guess = newton.with_membrane_stress(here.state, step, newton.kinematics.advanced(here.state, step))
 
     def row(state: State, equilibrium: Equilibrium, r: Reals, d: Reals) -> float:
         excess = volume_of(newton, state) - wanted

@@ -24,6 +24,18 @@ from bellows_design.design import (
 )
 from bellows_design.materials.library import material_at
 from bellows_design.materials.material import Material
+from bellows_design.own_body import (
+    BodyLoad,
+    BodyMesh,
+    BodyPart,
+    BodySupports,
+    Film,
+    Gravity,
+    Obstacle,
+    OwnBody,
+    Selection,
+    Tip,
+)
 from printers import Filament, PrinterProfile, SlicerAdvice, load_profile, profile_from_table
 
 Bellows = Callable[..., tuple[int, str, str]]
@@ -31,6 +43,18 @@ RECORDS = {
     Kind.DESIGN: (Design, BellowsParameters, Indent, Port, Mount, Fingertip, Load, Limits),
     Kind.PRINTER: (PrinterProfile, SlicerAdvice, Filament),
     Kind.MATERIAL: (Material,),
+    Kind.BODY: (
+        OwnBody,
+        BodyPart,
+        Selection,
+        BodySupports,
+        BodyLoad,
+        Film,
+        Gravity,
+        Obstacle,
+        Tip,
+        BodyMesh,
+    ),
 }
 
 
@@ -58,7 +82,7 @@ def test_every_field_stands_there_with_a_comment(kind: Kind) -> None:
                 if line.removeprefix("# ").startswith(f"{name} = ")
             ]
             if not found:
-                assert any(line.endswith(f"[{name}]") for line in lines), name
+                assert any(line.endswith((f"[{name}]", f"[{name}]]")) for line in lines), name
                 continue
             comments = [lines[n - 1] for n in found]  # tables may have a key in common
             assert any(says_all(comment, field) for comment in comments), name
