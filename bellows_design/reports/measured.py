@@ -88,7 +88,7 @@ def _table(found: Comparison) -> Table:
     fitted = ("fitted", "residual") if found.factor is not None else ("residual",)
     for heading in ("pressure, MPa", "measured", "model", "lowest", "highest", *fitted):
         table.add_column(heading, justify="right")
-    table.add_column("in the band")
+    table.add_column("inside")
     count = measured.value.size
     shown = np.unique(np.linspace(0, count - 1, min(count, MOST_ROWS)).round().astype(int))
     low, high = found.band(found.pressure)

@@ -78,7 +78,7 @@ def _compared(options: ComparingOptions) -> Comparison:
 
     require_working_folder()
     require_address_space(EVALUATION)
-    body = body_named(options.design)
+    body = body_named(options.design, "auto", False)
     measured = load_curve(options.data, options.reading)
     budget = options.limits.budget()
     if body is not None:

@@ -26,14 +26,14 @@ WIDEST = 3.0
 """Ratio of an interval's ends above which the factor is not determined."""
 FACTORS = 161
 """Looked at over the whole range, and again where they are probable."""
-RESOLVED = 20
-"""Steps that an interval has at least, for its ends to be known to a hundredth of it."""
+RESOLVED = 12
+"""Steps that an interval has at least, for its ends to be known to a fraction of one."""
 AROUND = 3
 """Steps on either side of those that are probable, which are looked at, too."""
-MOST_LOOKS = 5
+MOST_LOOKS = 4
 NEGLIGIBLE = 1e-3
 """Of the highest density: what may lie at either end of the factors looked at."""
-PROBABLE = 1e-7
+PROBABLE = 1e-4
 """Of the highest density: factors that are looked at closely."""
 STEP = 0.02
 """In log s, of differences by the factor."""

@@ -70,7 +70,8 @@ def likelihood(logs: Reals, residuals: Reals, scatter: Scatter, offset: bool) ->
         scatter: Hypotheses on the scatter.
         offset: Whether all residuals may have a constant in common.
     """
-    white, count = scatter.whitening @ residuals, residuals.shape[0]
+    count, number = residuals.shape[0], len(scatter.log_weight)
+    white = (scatter.whitening.reshape(-1, count) @ residuals).reshape(number, count, -1)
     terms = scatter.log_weight - 0.5 * scatter.log_determinant
     if offset:
         ones = scatter.whitening.sum(axis=2)
@@ -78,7 +79,7 @@ def likelihood(logs: Reals, residuals: Reals, scatter: Scatter, offset: bool) ->
         along = np.einsum("hn,hnk->hk", ones, white) / sizes[:, None]
         white = white - ones[:, :, None] * along[:, None, :]
         count, terms = count - 1, terms - 0.5 * np.log(sizes)
-    squares = np.maximum((white**2).sum(axis=1), np.finfo(float).tiny)
+    squares = np.maximum(np.einsum("hnk,hnk->hk", white, white), np.finfo(float).tiny)
     exponents = terms[:, None] - 0.5 * count * np.log(squares)
     exponents -= 0.5 * squares / count / scatter.usual[:, None] ** 2
     density = np.exp(exponents - exponents.max()).sum(axis=0)
