@@ -28,6 +28,7 @@ from bellows_design.cli.checking.options import (
     Slice,
     Up,
 )
+from bellows_design.cli.comparing.command import compare
 from bellows_design.cli.force.command import force
 from bellows_design.cli.options import (
     AcceptPoorFit,
@@ -79,6 +80,7 @@ app = typer.Typer(
 app.add_typer(study, name="study")
 app.command()(optimize)
 app.command()(force)
+app.command()(compare)
 
 
 @app.callback(invoke_without_command=True)

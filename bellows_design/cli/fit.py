@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from bellows_design.cli.answer import DONE, REFUSED, Answer, unwritten
-from bellows_design.cli.output_files import require_file, require_plot
+from bellows_design.cli.output_files import name_of, require_file, require_plot
 from bellows_design.errors import DesignError
 from bellows_design.materials.laws import BEST
 from bellows_design.materials.measurements.options import ReadingOptions
@@ -106,7 +105,7 @@ def _material(data: Measurements, fit: Fit, wanted: MaterialOptions) -> Material
         return None
     from bellows_design.materials.fitted_material import fitted_material
 
-    name = _name(wanted.output)
+    name = name_of(wanted.output, "fitted")
     return fitted_material(data, fit, name, wanted.yield_strength, wanted.elongation_at_break)
 
 
@@ -120,7 +119,3 @@ def _write(report: FitReport) -> None:
         from bellows_design.reports.fit_plot import plot_fit
 
         plot_fit(report.data, report.fit, report.plot_file)
-
-
-def _name(output: Path) -> str:
-    return re.sub(r"[^A-Za-z0-9_-]+", "_", output.stem).strip("_-")[:64] or "fitted"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 from bellows_design.errors import DesignError
@@ -44,3 +45,8 @@ def require_plot(path: Path | None) -> None:
         from bellows_design.reports.plots import require_matplotlib
 
         require_matplotlib()
+
+
+def name_of(output: Path, otherwise: str) -> str:
+    """What the content of a file is called: its name without signs that no name has."""
+    return re.sub(r"[^A-Za-z0-9_-]+", "_", output.stem).strip("_-")[:64] or otherwise

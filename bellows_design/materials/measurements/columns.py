@@ -7,10 +7,12 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from bellows_design.errors import DesignError
-from bellows_design.materials.measurements.table.header import STRESSES, Table
+from bellows_design.materials.measurements.table.header import Table
 from bellows_design.materials.measurements.table.headings import Heading, may_be
 from bellows_design.validation.quoting import did_you_mean, quoted
 from solver.material.homogeneous import MODES
+
+STRESSES = ("stress", "force")
 
 
 class Pair(NamedTuple):

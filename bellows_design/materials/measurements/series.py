@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from bisect import bisect
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -12,6 +11,7 @@ import numpy as np
 
 from bellows_design.errors import DesignError
 from bellows_design.materials.measurements.columns import Columns, Pair
+from bellows_design.materials.measurements.table.cells import no_number, number_at, require_width
 from bellows_design.materials.measurements.table.header import Table
 from bellows_design.materials.measurements.table.rows import Row, Sheet
 from bellows_design.validation.quoting import did_you_mean, quoted
@@ -19,8 +19,6 @@ from solver.arrays import Reals
 from solver.material.homogeneous import MODES
 
 MOST_POINTS = 100_000
-
-_NOT_FINITE = re.compile(r"[+-]?(nan|inf|infinity)", re.IGNORECASE | re.ASCII)
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,7 +68,7 @@ def series_of(table: Table, columns: Columns, sheet: Sheet, place: str) -> list[
             block = bisect(table.repeats, row.number)
             label = f"{own} {row.cells[columns.specimen]}" if columns.specimen is not None else own
             label = f"{label} {block + 1}" if table.repeats else label
-            values, percent = _values(row, pair, table, sheet, where)
+            values, percent = _values(row, pair, table, sheet, place)
             key = (_mode(row, columns.mode, where), label.strip())
             time = _time(row, columns.time, sheet)
             points.setdefault(key, []).append((*values, row.number, time))
@@ -98,15 +96,13 @@ def _time(row: Row, column: int | None, sheet: Sheet) -> float:
 
 def _rows(table: Table, columns: Columns, pair: Pair, place: str) -> Iterator[Row]:
     """Rows in which the pair has numbers; of several pairs the shorter ones end early."""
-    width = len(table.headings)
     needed = max(k for k in (*pair, columns.mode, columns.specimen) if k is not None)
     for row in table.rows:
         shared = _shared(columns, pair.strain)
         ended = not _has(row, pair.stress) and (shared or not _has(row, pair.strain))
         if ended and len(columns.pairs) > 1:
             continue
-        if len(row.cells) > width or len(row.cells) <= needed:
-            raise DesignError(_of_other_length(row, table, place))
+        require_width(row, table, needed, place)
         yield row
 
 
@@ -118,46 +114,15 @@ def _has(row: Row, column: int | None) -> bool:
     return column is not None and column < len(row.cells) and bool(row.cells[column])
 
 
-def _of_other_length(row: Row, table: Table, place: str) -> str:
-    named, count = len(table.headings), len(row.cells)
-    hint = (
-        "; numbers with decimal commas need semicolons between them, not commas"
-        if count > named
-        else f"; --skip {row.number}- leaves out what follows the numbers"
-    )
-    who = "--columns" if table.named == "--columns" else "the header"
-    return (
-        f"{place} line {row.number} has {_counted(count, 'value')} but {who} names "
-        f"{_counted(named, 'column')}{hint}."
-    )
-
-
 def _values(
-    row: Row, pair: Pair, table: Table, sheet: Sheet, where: str
+    row: Row, pair: Pair, table: Table, sheet: Sheet, place: str
 ) -> tuple[tuple[float, float], bool]:
     """Strain and stress of a row, and if the strain has a sign of per cent."""
-    cells = row.cells[pair.strain], row.cells[pair.stress]
-    names = [table.headings[k].text for k in pair]
-    values = [sheet.number(cell) for cell in cells]
-    for cell, value, name in zip(cells, values, names, strict=True):
-        if value is None or (cell.endswith("%") and name == names[1]):
-            raise DesignError(_no_number(cell, sheet, f"{where}: {name}", row.number))
-    return (values[0] or 0.0, values[1] or 0.0), cells[0].endswith("%")
-
-
-def _no_number(cell: str, sheet: Sheet, what: str, line: int) -> str:
-    other = "," if sheet.decimal == "." else "."
-    if Sheet((), decimal=other).number(cell) is not None:
-        right, wrong = ("point", "comma") if sheet.decimal == "." else ("comma", "point")
-        return (
-            f"{what} is {quoted(cell)} but needs a decimal {right}, not a {wrong}, as the others."
-        )
-    finite = "finite " if _NOT_FINITE.fullmatch(cell[:40]) else ""
-    return (
-        f"{what} is {quoted(cell)} but must be a {finite}number; --skip {line} leaves the line out."
-        if line > 1
-        else f"{what} is {quoted(cell)} but must be a {finite}number."
-    ).replace(f"--skip {line} ", f"--skip {line}-{line} ")
+    strain, stress = (number_at(row, column, table, sheet, place) for column in pair)
+    cell, name = row.cells[pair.stress], table.headings[pair.stress].text
+    if cell.endswith("%"):
+        raise DesignError(no_number(cell, row, name, sheet, place))
+    return (strain, stress), row.cells[pair.strain].endswith("%")
 
 
 def _mode(row: Row, column: int | None, where: str) -> int:
@@ -169,10 +134,6 @@ def _mode(row: Row, column: int | None, where: str) -> int:
             f"{where}: mode is {quoted(row.cells[column])}{did_you_mean(name, MODES)}"
         )
     return list(MODES).index(name)
-
-
-def _counted(count: int, noun: str) -> str:
-    return f"{count} {noun}" + ("" if count == 1 else "s")
 
 
 def all_of(series: Sequence[Series], name: str) -> Reals:

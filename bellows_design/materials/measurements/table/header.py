@@ -11,10 +11,10 @@ from bellows_design.materials.measurements.table.facts import facts
 from bellows_design.materials.measurements.table.headings import Heading, heading
 from bellows_design.materials.measurements.table.numbers import looks_like_a_number
 from bellows_design.materials.measurements.table.rows import Row, Sheet
-from bellows_design.materials.measurements.table.units import ALL, UNITS, plain_unit
+from bellows_design.materials.measurements.table.units import plain_unit
+from bellows_design.materials.measurements.table.vocabulary import TENSION, Vocabulary
 from bellows_design.validation.quoting import quoted
 
-STRAINS, STRESSES = ("strain", "stretch", "extension"), ("stress", "force")
 NO_COLUMN = Heading("-", "other")
 
 _RUN = 3
@@ -42,35 +42,40 @@ class Table:
     repeats: tuple[int, ...] = ()
 
 
-def table_of(sheet: Sheet, place: str, options: ReadingOptions) -> Table:
+def table_of(
+    sheet: Sheet, place: str, options: ReadingOptions, vocabulary: Vocabulary = TENSION
+) -> Table:
     """The table in a sheet. Raises ``DesignError`` where it is not certain."""
     if options.columns is not None:
-        found = _as_told(sheet, place, options.columns)
+        found = _as_told(sheet, place, options.columns, vocabulary)
     else:
-        found = _with_header(sheet, place)
-    return replace(found, headings=_with_units(found.headings, options.units))
+        found = _with_header(sheet, place, vocabulary)
+    return replace(found, headings=_with_units(found.headings, options.units, vocabulary))
 
 
-def _with_header(sheet: Sheet, place: str) -> Table:
+def _with_header(sheet: Sheet, place: str, vocabulary: Vocabulary) -> Table:
     for index, row in enumerate(sheet.rows):
-        headings = _headings(row.cells)
-        if _names_a_test(headings) and not _has_number(row, sheet):
-            return _below(sheet, index, headings, f"{place} line {row.number}")
+        headings = _headings(row.cells, vocabulary)
+        if _names_a_test(headings, vocabulary) and not _has_number(row, sheet):
+            return _below(sheet, index, headings, f"{place} line {row.number}", vocabulary)
     first = _first_of_run(sheet)
     for comment in reversed(sheet.comments):  # as numpy.savetxt writes headers
-        headings = _headings(comment.cells)
-        if _names_a_test(headings) and len(headings) == len(sheet.rows[first].cells):
+        headings = _headings(comment.cells, vocabulary)
+        named = _names_a_test(headings, vocabulary)
+        if named and len(headings) == len(sheet.rows[first].cells):
             return Table(headings, sheet.rows[first:], f"{place} line {comment.number}")
-    raise DesignError(_no_header(sheet, first, place))
+    raise DesignError(_no_header(sheet, first, place, vocabulary))
 
 
-def _below(sheet: Sheet, index: int, headings: tuple[Heading, ...], named: str) -> Table:
+def _below(
+    sheet: Sheet, index: int, headings: tuple[Heading, ...], named: str, vocabulary: Vocabulary
+) -> Table:
     """The table below the names in that row, with the units of the next row if it has some."""
     rest, notes, units = sheet.rows[index + 1 :], [], None
-    if rest and _are_units(rest[0].cells):
+    if rest and _are_units(rest[0].cells, vocabulary):
         units = rest[0].cells
         _require_one_unit(headings, units, f"{named} and {rest[0].number}")
-        headings = _in_units(headings, units)
+        headings = _in_units(headings, units, vocabulary)
         notes.append(f"units are those of line {rest[0].number}")
         rest = rest[1:]
     kept, repeats = _without_repeats(sheet, rest, sheet.rows[index].cells, units)
@@ -103,14 +108,18 @@ def _without_repeats(
     return kept, tuple(rows[k].number for k in places)
 
 
-def _as_told(sheet: Sheet, place: str, text: str) -> Table:
+def _as_told(sheet: Sheet, place: str, text: str, vocabulary: Vocabulary) -> Table:
     """The table with columns as ``--columns`` has them."""
     parts = [part.strip() for part in text.split(",")]
     width = max(len(row.cells) for row in sheet.rows)
     numbered = "=" in text
-    headings = _numbered(parts, width) if numbered else tuple(map(_told, parts))
+    headings = (
+        _numbered(parts, width, vocabulary)
+        if numbered
+        else tuple(_told(part, vocabulary) for part in parts)
+    )
     wanted = [index for index, each in enumerate(headings) if each.quantity != "other"]
-    numeric = [index for index in wanted if headings[index].quantity not in ("mode", "specimen")]
+    numeric = [index for index in wanted if headings[index].quantity not in vocabulary.texts]
     usable = [_all(row, numeric, sheet) for row in sheet.rows]
     start = next((k for k in range(len(usable)) if all(usable[k : k + _RUN])), None)
     if start is None:
@@ -121,40 +130,34 @@ def _as_told(sheet: Sheet, place: str, text: str) -> Table:
     return Table(headings, rows, "--columns", facts(above, sheet), notes)
 
 
-def _numbered(parts: Sequence[str], width: int) -> tuple[Heading, ...]:
+def _numbered(parts: Sequence[str], width: int, vocabulary: Vocabulary) -> tuple[Heading, ...]:
     headings = [NO_COLUMN] * width
     for part in parts:
         name, _, place = (piece.strip() for piece in part.partition("="))
         if not (place.isascii() and place.isdigit() and 1 <= int(place[:4]) <= width):
             raise DesignError(
                 f"--columns has {quoted(part)} but must have a name and the number of a column, "
-                f"from 1 to {width}, as in strain=1,stress_mpa=2."
+                f"from 1 to {width}, as in {vocabulary.numbered}."
             )
-        headings[int(place[:4]) - 1] = _told(name)
+        headings[int(place[:4]) - 1] = _told(name, vocabulary)
     return tuple(headings)
 
 
-def _told(name: str) -> Heading:
+def _told(name: str, vocabulary: Vocabulary) -> Heading:
     if name in ("-", ""):
         return NO_COLUMN
-    found = heading(name)
+    found = heading(name, vocabulary)
     if found.quantity is None:
-        raise DesignError(
-            f"--columns has {quoted(name)}; known are strain, stretch, extension, stress, force, "
-            "true_strain, true_stress, time, mode and specimen, with a unit behind (stress_mpa, "
-            "strain_percent), and - for a column to leave out."
-        )
+        raise DesignError(f"--columns has {quoted(name)}; {vocabulary.names}")
     return found._replace(told=True)
 
 
-def _headings(cells: Sequence[str]) -> tuple[Heading, ...]:
-    return tuple(heading(cell) if cell else NO_COLUMN for cell in cells)
+def _headings(cells: Sequence[str], vocabulary: Vocabulary) -> tuple[Heading, ...]:
+    return tuple(heading(cell, vocabulary) if cell else NO_COLUMN for cell in cells)
 
 
-def _names_a_test(headings: Sequence[Heading]) -> bool:
-    quantities = {each.quantity for each in headings}
-    strains = {*STRAINS, "elongation"}
-    return bool(quantities & strains) and bool(quantities & set(STRESSES))
+def _names_a_test(headings: Sequence[Heading], vocabulary: Vocabulary) -> bool:
+    return vocabulary.names_a_test([each.quantity for each in headings])
 
 
 def _has_number(row: Row, sheet: Sheet) -> bool:
@@ -175,9 +178,10 @@ def _first_of_run(sheet: Sheet) -> int:
     return 0
 
 
-def _are_units(cells: Sequence[str]) -> bool:
+def _are_units(cells: Sequence[str], vocabulary: Vocabulary) -> bool:
     given = [cell.strip("[](){}<> ") for cell in cells if cell]
-    return bool(given) and all(not unit or plain_unit(unit) in ALL for unit in given)
+    known = vocabulary.known_units
+    return bool(given) and all(not unit or plain_unit(unit) in known for unit in given)
 
 
 def _require_one_unit(headings: Sequence[Heading], cells: Sequence[str], named: str) -> None:
@@ -192,37 +196,38 @@ def _require_one_unit(headings: Sequence[Heading], cells: Sequence[str], named: 
             )
 
 
-def _in_units(headings: Sequence[Heading], cells: Sequence[str]) -> tuple[Heading, ...]:
+def _in_units(
+    headings: Sequence[Heading], cells: Sequence[str], vocabulary: Vocabulary
+) -> tuple[Heading, ...]:
     units = [plain_unit(cell.strip("[](){}<> ")) or None for cell in cells]
     units += [None] * (len(headings) - len(units))
     return tuple(
-        _in_unit(each, unit) if unit is not None else each
+        _in_unit(each, unit, vocabulary) if unit is not None else each
         for each, unit in zip(headings, units, strict=False)
     )
 
 
-def _in_unit(found: Heading, unit: str) -> Heading:
+def _in_unit(found: Heading, unit: str, vocabulary: Vocabulary) -> Heading:
     """The heading with a unit that stands below it or in an option."""
-    quantity = found.quantity
-    if quantity in ("elongation", "strain") and unit in UNITS["extension"]:
-        quantity = "extension"
-    elif quantity == "elongation" and unit in UNITS["strain"]:
-        quantity = "strain"
-    return found._replace(quantity=quantity, unit=unit)
+    named = found.quantity
+    quantity = None if named is None else vocabulary.with_unit(named, unit)
+    return found._replace(quantity=quantity or named, unit=unit)
 
 
-def _with_units(headings: Sequence[Heading], text: str | None) -> tuple[Heading, ...]:
+def _with_units(
+    headings: Sequence[Heading], text: str | None, vocabulary: Vocabulary
+) -> tuple[Heading, ...]:
     """The headings with the units of ``--units`` instead of theirs."""
     result = list(headings)
     for part in text.split(",") if text is not None else ():
         name, equals, unit = (piece.strip() for piece in part.partition("="))
-        quantity = heading(name).quantity if equals else None
-        if quantity not in UNITS and quantity != "elongation":
+        quantity = heading(name, vocabulary).quantity if equals else None
+        known = vocabulary.units_of(quantity)
+        if not known:
             raise DesignError(
                 f"--units has {quoted(part.strip())} but must have a quantity and its unit, as in "
-                "stress=kPa,strain=%,force=N,extension=mm."
+                f"{vocabulary.units_example}."
             )
-        known = UNITS.get(quantity or "", {}) or UNITS["strain"] | UNITS["extension"]
         if plain_unit(unit) not in known:
             raise DesignError(
                 f"--units has the unit {quoted(unit)} of {name}; known are {', '.join(known)}."
@@ -231,29 +236,31 @@ def _with_units(headings: Sequence[Heading], text: str | None) -> tuple[Heading,
         if not concerned:
             raise DesignError(f"--units has a unit of {name} but there is no such column.")
         for k in concerned:
-            result[k] = _in_unit(result[k], plain_unit(unit))._replace(told=True)
+            result[k] = _in_unit(result[k], plain_unit(unit), vocabulary)._replace(told=True)
     return tuple(result)
 
 
-def _no_header(sheet: Sheet, first: int, place: str) -> str:
+def _no_header(sheet: Sheet, first: int, place: str, vocabulary: Vocabulary) -> str:
     """Why the columns are not known, with the option that settles it."""
     row = sheet.rows[first]
     above = sheet.rows[first - 1] if first else None
     if above is None and not _has_number(row, sheet):
         above = row
     if above is not None and not _has_number(above, sheet):
-        known = ", ".join(each.quantity or "?" for each in _headings(above.cells))
+        known = ", ".join(each.quantity or "?" for each in _headings(above.cells, vocabulary))
         return (
             f"{place} line {above.number} names the columns "
-            f"{quoted(', '.join(above.cells))} ({known}), of which none is a strain or none is a "
-            "stress; name them with --columns, such as --columns strain_percent,stress_mpa."
+            f"{quoted(', '.join(above.cells))} ({known}), of which {vocabulary.lacking}; name them "
+            f"with --columns, such as --columns {vocabulary.examples[-1]}."
         )
     count = len(row.cells)
-    names = ",".join(("stretch", "stress_mpa", *["-"] * (count - 2)))
+    told = [
+        ",".join((*example.split(","), *["-"] * (count - 2))) for example in vocabulary.examples
+    ]
     return (
         f"{place} names no columns above line {row.number}; what its {count} columns hold and in "
-        f"which units, --columns tells: --columns {names} or --columns "
-        f"{names.replace('stretch', 'strain_percent')}, - for a column to leave out."
+        f"which units, --columns tells: --columns {' or --columns '.join(told)}, - for a column to "
+        "leave out."
     )
 
 

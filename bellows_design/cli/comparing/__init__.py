@@ -1,0 +1,1 @@
+"""``bellows compare``: its options and its answer."""

@@ -1,0 +1,1 @@
+"""The model's curve of what was measured, for every factor on the material's stiffness."""
