@@ -12,7 +12,9 @@ DATA: dict[str, Any] = json.loads(
     (Path(__file__).parent / "data" / "beam.json").read_text(encoding="utf-8")
 )
 CELLS = (6.0, 3.0, 2.0, 1.5)
-NEARLY, INCOMPRESSIBLE = "nearly incompressible", "incompressible"
+SEVERAL = 3.0
+"""mm; cells on which variants are computed."""
+NEARLY, INCOMPRESSIBLE, AUTHORS = "nearly incompressible", "incompressible", "authors' modulus"
 MARKERS = {
     "top": ((0.0, 30.0), (0.0, 1.0)),
     "left": ((15.0, 24.0), (1.0, 0.0)),
