@@ -36,6 +36,9 @@ class Mesh:
             mid-nodes of (0, 1) (1, 2) (2, 0); normals point out of the solid.
 
             *Shape:* (k, 6) each.
+        regions: name -> numbers of tetrahedra; those in none make the rest.
+
+            *Shape:* (k,) each.
 
     Raises:
         SolverError: a shape is wrong, a coordinate is not finite, or a node number is out of range.
@@ -44,6 +47,7 @@ class Mesh:
     nodes: Reals
     tets: Integers
     surfaces: Mapping[str, Integers] = field(default_factory=dict)
+    regions: Mapping[str, Integers] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         nodes = _table("nodes", self.nodes, 3, np.float64)
@@ -60,6 +64,7 @@ class Mesh:
         object.__setattr__(self, "nodes", nodes)
         object.__setattr__(self, "tets", tets)
         object.__setattr__(self, "surfaces", MappingProxyType(surfaces))
+        object.__setattr__(self, "regions", MappingProxyType(dict(self.regions)))
 
     @cached_property
     def vertices(self) -> Integers:
