@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from solver.paths.volume.control import inflate
     from solver.problem.contacts import Contact, SurfaceContact
     from solver.problem.loads import AxialForce, BodyForce, Couple, PointForce, Traction
+    from solver.problem.membranes import Membrane
     from solver.problem.problem import Problem, SlenderAxis
     from solver.problem.rigid_bodies import RigidCylinder, RigidPlane, RigidSphere
     from solver.problem.springs import FoundationSpring, NodeSpring
@@ -58,6 +59,7 @@ __all__ = [
     "FoundationSpring",
     "Gradients",
     "Limit",
+    "Membrane",
     "Mesh",
     "Neighbouring",
     "NodeSpring",
@@ -127,6 +129,7 @@ __getattr__ = imported_when_asked_for(
         "problem.loads": ("AxialForce", "BodyForce", "Couple", "PointForce", "Traction"),
         "problem.contacts": ("Contact", "SurfaceContact"),
         "problem.rigid_bodies": ("RigidCylinder", "RigidPlane", "RigidSphere"),
+        "problem.membranes": ("Membrane",),
         "problem.problem": ("Problem", "SlenderAxis"),
         "problem.springs": ("FoundationSpring", "NodeSpring"),
         "results.contacts": ("ContactForce", "contact_forces"),

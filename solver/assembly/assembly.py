@@ -11,6 +11,8 @@ from solver.assembly.colouring import chunks
 from solver.assembly.contact import Contacts
 from solver.assembly.free_rim import FreeRim
 from solver.assembly.layout import Layout
+from solver.assembly.membranes.films import Films
+from solver.assembly.membranes.membranes import Membranes
 from solver.assembly.moving_plane import MovingPlane
 from solver.assembly.pairs.made import contact_pairs
 from solver.assembly.pressure import pressure_facets
@@ -82,6 +84,7 @@ class Assembly:
         self._nodal_force = self.numbering.gather(nodal_forces(mesh, problem.loads))
         self._section_loads = SectionLoads.of(problem, self.numbering, self.pattern)
         self.springs = Springs.of(problem, self.numbering, self.pattern)
+        self.films = Films.of(problem, self.numbering, self.pattern)
         still = np.zeros(mesh.nodes.shape) if start is None else start
         self._rim = FreeRim.of(problem, self.numbering, self.pattern, still)
         self.contacts = Contacts(problem, self.numbering, self.plane, self.pattern, still)
@@ -109,6 +112,8 @@ class Assembly:
         if tangent and self._section_loads is not None:
             self._section_loads.add_tangent(state, load, values)
         self._add_springs(state, tangent, residual, values)
+        if self.films is not None:
+            self.films.add(state, tangent, residual, values)
         values, pattern = self.contacts.add(state, tangent, residual, values, load)
         skew = self._skew(state, pressure) if tangent else np.zeros(0)
         if len(skew):
@@ -184,14 +189,15 @@ class Assembly:
         return stress
 
     def energy(self, state: State, load: float = 0.0) -> float:
-        """Pi of the solid, its springs and contacts, N mm.
+        """Pi of the solid, its springs, membranes and contacts, N mm.
 
         Its gradient is the residual without pressure and dead loads; rigid bodies are where they
         are at the fraction ``load`` of the load.
         """
         solid = total_energy(self._solid, state.displacement, state.hydrostatic_pressure)
         springs = self.springs.energy(state.displacement) if self.springs is not None else 0.0
-        return float(solid[0]) + springs + self.contacts.energy(state, load)
+        films = self.films.energy(state) if self.films is not None else 0.0
+        return float(solid[0]) + springs + films + self.contacts.energy(state, load)
 
     def _geometric(self, state: State) -> Reals:
         """A state's geometric stress in the form of the kernels: (e, 0, 6) for none."""
@@ -203,7 +209,7 @@ def unbalanced_forces(problem: Problem, state: State, pressure: float, load: flo
     """Out-of-balance nodal forces (n, 3) in N: zero except where supports act.
 
     Under ``pressure`` (MPa) and the fraction ``load`` of the dead loads and of the motions of rigid
-    bodies; springs and contacts belong to the balance.
+    bodies; springs, membranes and contacts belong to the balance.
     """
     mesh = problem.mesh
     everything = number_unknowns(mesh, NO_SUPPORTS)
@@ -224,6 +230,8 @@ def unbalanced_forces(problem: Problem, state: State, pressure: float, load: flo
     if problem.springs:
         stiffness = stiffness_matrix(mesh, problem.springs)
         forces += (stiffness @ displacement.ravel()).reshape(-1, 3)
+    if problem.membranes:
+        forces += Membranes.of(problem).forces(displacement)
     for pair in contact_pairs(problem):
         forces -= pair.forces(state, load)
     return forces

@@ -1,4 +1,4 @@
-"""The boundary value problem: mesh, material, supports, loads, contacts and springs."""
+"""The boundary value problem: mesh, material, supports, loads, contacts, springs, membranes."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ from solver.problem.supports import Supports
 if TYPE_CHECKING:
     from solver.problem.contacts import AnyContact
     from solver.problem.loads import Load
+    from solver.problem.membranes import Membrane
     from solver.problem.springs import Spring
 
 
@@ -66,10 +67,12 @@ class Problem:
             with the load, or each other (``solver.assembly.contact``); with a moving plane only
             planes of symmetry and that one.
         springs: linear springs between the body and the ground; none with a moving plane.
+        membranes: films on surfaces that stretch by their modulus and bend freely; none with a
+            moving plane.
 
     Raises:
         SolverError: a surface is unknown, has no triangles or is not made of outer faces, the
-            moving plane is not plane, loads, springs or rigid bodies do not go with it, a contact
+            moving plane is not plane, loads, springs, membranes or rigid bodies do not go with it, a contact
             has no plane, supports and springs leave a rigid motion free, or the supports leave the
             pressure of an incompressible body undetermined.
     """
@@ -84,12 +87,14 @@ class Problem:
     sharp_edge_radius: float = 0.0
     contacts: tuple[AnyContact, ...] = ()
     springs: tuple[Spring, ...] = ()
+    membranes: tuple[Membrane, ...] = ()
 
     def __post_init__(self) -> None:
         self._check_kinds()
         from solver.mesh.checks import check_mesh
         from solver.problem.contacts import check_contacts, surfaces_of
         from solver.problem.loads import check_loads, loaded_surfaces
+        from solver.problem.membranes import check_membranes
         from solver.problem.springs import check_springs, sprung_surfaces
         from solver.problem.support_checks import check_pressure, check_supports
         from solver.problem.supports import fixed_displacements
@@ -102,6 +107,8 @@ class Problem:
         loaded = (*loaded_surfaces(self.loads), *sprung_surfaces(springs))
         touching = (name for each in contacts for name in surfaces_of(each))
         check_mesh(self.mesh, self.pressurised, (*loaded, *touching))
+        films = check_membranes(self.mesh, self.membranes, self.moving_plane)
+        object.__setattr__(self, "membranes", films)
         if not 0 <= self.sharp_edge_radius < np.inf:
             raise SolverError(
                 f"sharp_edge_radius = {self.sharp_edge_radius} mm must be a number of at least 0."

@@ -13,6 +13,7 @@ import numpy as np
 
 from solver.assembly.assembly import solid
 from solver.assembly.free_rim import free_edges, place_of
+from solver.assembly.membranes.membranes import Membranes
 from solver.assembly.pairs.made import contact_pairs
 from solver.assembly.section import section_work
 from solver.assembly.swept_volume import swept_volume
@@ -31,6 +32,7 @@ class Potential:
     Attributes:
         strain: stored in the body, N mm.
         springs: stored in the springs, N mm.
+        membranes: stored in the membranes, N mm.
         contacts: stored in the penetration of contacts, N mm; it vanishes with their depth.
         loads: of dead loads and pressure, N mm: minus the work that they would do at their present
             size on the straight way from the undeformed body.
@@ -38,13 +40,14 @@ class Potential:
 
     strain: float
     springs: float
+    membranes: float
     contacts: float
     loads: float
 
     @property
     def stored(self) -> float:
-        """In body, springs and contacts together, N mm."""
-        return self.strain + self.springs + self.contacts
+        """In body, springs, membranes and contacts together, N mm."""
+        return self.strain + self.springs + self.membranes + self.contacts
 
     @property
     def total(self) -> float:
@@ -89,6 +92,7 @@ def potential(solution: Solution) -> Potential:
     return Potential(
         strain=strain_energy(solution),
         springs=0.5 * float(displacement @ (stiffness @ displacement)),
+        membranes=Membranes.of(problem).energy(state.displacement),
         contacts=float(sum(pair.energy(state, load) for pair in contact_pairs(problem))),
         loads=0.0 - _pressure_work(solution) - _dead_work(solution),
     )

@@ -1,0 +1,1 @@
+"""Membranes on surfaces: their strain, stiffness, and forces."""
