@@ -11,13 +11,17 @@ if TYPE_CHECKING:
     from bellows_design.design.overrides import with_overrides
     from bellows_design.design.shipped import load_design
     from bellows_design.errors import BellowsError, DesignError
+    from bellows_design.own_body.body import OwnBody
+    from bellows_design.own_body.parts import BodyPart
 
 __version__ = "0.1.0"
 
 __all__ = [
     "BellowsError",
+    "BodyPart",
     "Design",
     "DesignError",
+    "OwnBody",
     "__version__",
     "load_design",
     "with_overrides",
@@ -30,5 +34,7 @@ __getattr__ = imported_when_asked_for(
         "design.overrides": ("with_overrides",),
         "design.shipped": ("load_design",),
         "errors": ("BellowsError", "DesignError"),
+        "own_body.body": ("OwnBody",),
+        "own_body.parts": ("BodyPart",),
     },
 )

@@ -22,9 +22,13 @@ from bellows_design.errors import DesignError
 from bellows_design.neighbours.neighbourhood import Neighbourhood
 from bellows_design.neighbours.pool import Pool
 from bellows_design.neighbours.record import NeighbourEvaluation
+from bellows_design.own_body.analysis import evaluate as own_bodies
+from bellows_design.own_body.analysis.evaluation import BodyEvaluation
+from bellows_design.own_body.body import OwnBody
 from bellows_design.progress import SILENCE, Progress
 
 __all__ = [
+    "BodyEvaluation",
     "Computation",
     "Evaluation",
     "NeighbourEvaluation",
@@ -64,8 +68,19 @@ def evaluate(
 ) -> NeighbourEvaluation: ...
 
 
+@overload
 def evaluate(
-    design: Design,
+    design: OwnBody,
+    *,
+    accuracy_percent: float | None = ...,
+    pressures: Sequence[float] = ...,
+    progress: Progress = ...,
+    budget: Budget = ...,
+) -> BodyEvaluation: ...
+
+
+def evaluate(
+    design: Design | OwnBody,
     model: str = "auto",
     accuracy_percent: float | None = None,
     pressures: Sequence[float] = (),
@@ -74,10 +89,11 @@ def evaluate(
     open_question: Callable[[LoadedState], str] = _nothing,
     keep: bool = False,
     near: Near | None = None,
-) -> Evaluation | NeighbourEvaluation:
+) -> Evaluation | NeighbourEvaluation | BodyEvaluation:
     """Evaluate ``design``: by itself, or starting from a neighbour (``near``).
 
-    Without ``near`` this is ``analysis.evaluate.evaluate``, and so are all other arguments.
+    Without ``near`` this is ``analysis.evaluate.evaluate``, and so are all other arguments; of a
+    body of one's own ``own_body.analysis.evaluate.evaluate``, which has one model only.
 
     Args:
         near: An evaluation of a design that differs by little. Its mesh is moved and its
@@ -90,6 +106,10 @@ def evaluate(
         BellowsError: As without ``near``; also for ``near`` with a model, accuracy or pressures.
         MeshingError: No usable mesh, or none in time.
     """
+    if isinstance(design, OwnBody):
+        if model != "auto" or near is not None or keep:
+            raise DesignError("an own body takes no model, near or keep: leave them out.")
+        return own_bodies.evaluate(design, accuracy_percent, pressures, progress, budget)
     if near is None:
         return analysis.evaluate(
             design, model, accuracy_percent, pressures, progress, budget, open_question, keep

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from solver.paths.neighbouring import Neighbouring, neighbouring
     from solver.paths.volume.control import inflate
     from solver.problem.contacts import Contact, SurfaceContact
-    from solver.problem.loads import AxialForce, BodyForce, Couple, PointForce, Traction
+    from solver.problem.loads import AxialForce, BodyForce, Couple, EdgeForce, PointForce, Traction
     from solver.problem.membranes import Membrane
     from solver.problem.problem import Problem, SlenderAxis
     from solver.problem.rigid_bodies import RigidCylinder, RigidPlane, RigidSphere
@@ -37,7 +37,13 @@ if TYPE_CHECKING:
     from solver.results.folds import Folds
     from solver.results.reactions import Reaction, reaction
     from solver.results.solution import PathPoint, Solution, cavity_volume, folded_elements
-    from solver.results.stress import Peak, nodal_cauchy, nodal_von_mises, peak_von_mises
+    from solver.results.stress import (
+        Peak,
+        nodal_cauchy,
+        nodal_von_mises,
+        peak_von_mises,
+        peaks_by_region,
+    )
     from solver.results.vtu import write_vtu
     from solver.results.work import Work, work
     from solver.sensitivity.gradients import Gradients, ResponseGradient, gradients
@@ -54,6 +60,7 @@ __all__ = [
     "Contact",
     "ContactForce",
     "Couple",
+    "EdgeForce",
     "Event",
     "Folds",
     "FoundationSpring",
@@ -96,6 +103,7 @@ __all__ = [
     "nodal_cauchy",
     "nodal_von_mises",
     "peak_von_mises",
+    "peaks_by_region",
     "potential",
     "reaction",
     "rotation",
@@ -126,7 +134,14 @@ __getattr__ = imported_when_asked_for(
         "nonlinear.events": ("Event",),
         "nonlinear.options": ("SolverOptions",),
         "paths.volume.control": ("inflate",),
-        "problem.loads": ("AxialForce", "BodyForce", "Couple", "PointForce", "Traction"),
+        "problem.loads": (
+            "AxialForce",
+            "BodyForce",
+            "Couple",
+            "EdgeForce",
+            "PointForce",
+            "Traction",
+        ),
         "problem.contacts": ("Contact", "SurfaceContact"),
         "problem.rigid_bodies": ("RigidCylinder", "RigidPlane", "RigidSphere"),
         "problem.membranes": ("Membrane",),
@@ -146,6 +161,12 @@ __getattr__ = imported_when_asked_for(
         "sensitivity.section.shear": ("shear_compliance",),
         "sensitivity.sensitivities": ("Sensitivities", "sensitivities"),
         "sensitivity.smooth_peak": ("SmoothPeak",),
-        "results.stress": ("Peak", "nodal_cauchy", "nodal_von_mises", "peak_von_mises"),
+        "results.stress": (
+            "Peak",
+            "nodal_cauchy",
+            "nodal_von_mises",
+            "peak_von_mises",
+            "peaks_by_region",
+        ),
     },
 )

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from dataclasses import asdict, dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Generic
 
-from bellows_design.analysis.models import AnalysisModel
+from bellows_design.analysis.models import AnalysisModel, Subject
 from bellows_design.budget import DEFAULT, Budget
-from bellows_design.design.design import Design
 
 if TYPE_CHECKING:
-    from bellows_design.geometry.named_solids import NamedSolid
+    from bellows_design.geometry.meshable import Meshable
     from solver import Peak, Solution
     from solver.nonlinear.newton import Newton
 
@@ -53,21 +52,21 @@ class SolvedMesh:
 
 
 @dataclass(frozen=True)
-class Body:
+class Body(Generic[Subject]):
     """The solid of a design that is meshed for a model, built when it is first asked for."""
 
-    design: Design
-    model: AnalysisModel
+    design: Subject
+    model: AnalysisModel[Subject]
 
     @cached_property
-    def solid(self) -> NamedSolid:
+    def solid(self) -> Meshable:
         """The solid. Raises ``GeometryError`` if the CAD kernel cannot build it."""
         return self.model.solid(self.design)
 
 
 @dataclass(frozen=True)
-class Computation:
-    """What was solved for a design under pressure, and what is needed to go on.
+class Computation(Generic[Subject]):
+    """What was solved for a design, or another body, under pressure, and what is needed to go on.
 
     ``solved`` holds the meshes, the finest last; ``ends`` the solution of a short actuator of one
     bubble, or of a bubble without neighbours, on the unit cell's coarsest mesh size; ``pressures``
@@ -77,10 +76,10 @@ class Computation:
     left, where ``keep`` asks for it.
     """
 
-    design: Design
-    model: AnalysisModel
+    design: Subject
+    model: AnalysisModel[Subject]
     reason: str
-    body: Body
+    body: Body[Subject]
     pressures: tuple[float, ...] = ()
     budget: Budget = DEFAULT
     solved: tuple[SolvedMesh, ...] = ()

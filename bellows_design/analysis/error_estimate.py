@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from bellows_design.analysis.computation import Computation
 from bellows_design.analysis.whole_actuator import ENDS_NOISE, added_by_ends, ends_factor, reading
+
+if TYPE_CHECKING:
+    from solver import Peak
 
 LEAST_ANGLE_ERROR, LEAST_STRESS_ERROR = 0.005, 0.02
 """Fractions of angle and stress that no estimate falls below: two meshes can agree by chance, and
@@ -55,8 +59,8 @@ def least_estimate(computation: Computation) -> ErrorEstimate:
     angle = reading(computation, finest.path[-1]).bending_angle_deg
     stress = LEAST_STRESS_ERROR * peak.value + _ends_stress_error(computation)
     return ErrorEstimate(
-        _percent(LEAST_ANGLE_ERROR * abs(angle) + _ends_error(computation), angle),
-        _percent(stress, peak.value),
+        percent(LEAST_ANGLE_ERROR * abs(angle) + _ends_error(computation), angle),
+        percent(stress, peak.value),
     )
 
 
@@ -66,12 +70,14 @@ def _angle_error(computation: Computation) -> float | None:
         reading(computation, solution.path[-1]).bending_angle_deg
         for solution in computation.solutions[-2:]
     )
-    error = _care(computation) * max(abs(fine - coarse), LEAST_ANGLE_ERROR * abs(fine))
-    return _percent(error + _ends_error(computation), fine)
+    more = max(abs(fine - coarse), LEAST_ANGLE_ERROR * abs(fine))
+    error = care(len(computation.solved)) * more
+    return percent(error + _ends_error(computation), fine)
 
 
-def _care(computation: Computation) -> float:
-    return TWO_MESHES if len(computation.solved) == 2 else 1.0
+def care(meshes: int) -> float:
+    """Factor on the difference between the last two of so many meshes."""
+    return TWO_MESHES if meshes == 2 else 1.0
 
 
 def _ends_error(computation: Computation) -> float:
@@ -85,12 +91,19 @@ def _ends_error(computation: Computation) -> float:
 
 
 def _stress_error(computation: Computation) -> float | None:
-    """Half of the difference, or how much the elements around the peak disagree if that is more."""
     coarse, fine = computation.peaks[-2:]
-    difference = _care(computation) * abs(coarse.value - fine.value) / 2
-    least = FEW_MESHES.get(len(computation.solved), LEAST_STRESS_ERROR)
-    error = max(difference, fine.scatter, least * fine.value)
-    return _percent(error + _ends_stress_error(computation), fine.value)
+    error = peak_error(coarse, fine, len(computation.solved))
+    return percent(error + _ends_stress_error(computation), fine.value)
+
+
+def peak_error(coarse: Peak, fine: Peak, meshes: int) -> float:
+    """Error (MPa) of the highest stress on the last of so many meshes.
+
+    Half of the difference, or how much the elements around the peak disagree if that is more.
+    """
+    difference = care(meshes) * abs(coarse.value - fine.value) / 2
+    least = FEW_MESHES.get(meshes, LEAST_STRESS_ERROR)
+    return max(difference, fine.scatter, least * fine.value)
 
 
 def _ends_stress_error(computation: Computation) -> float:
@@ -99,5 +112,6 @@ def _ends_stress_error(computation: Computation) -> float:
     return ENDS_STRESS_ERROR * computation.peaks[-1].value if more else 0.0
 
 
-def _percent(error: float, value: float) -> float | None:
+def percent(error: float, value: float) -> float | None:
+    """An error in percent of the value; None of zero."""
     return 100 * abs(error / value) if value else None

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import astuple, replace
+from dataclasses import astuple
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Protocol
 
 from bellows_design.analysis.computation import Computation
 from bellows_design.analysis.error_estimate import error_estimate, least_estimate
@@ -16,7 +16,7 @@ from bellows_design.analysis.evaluation import (
     MeshSize,
     SolverEffort,
 )
-from bellows_design.analysis.mesh_sequence import affordable_plan, lacks_time, refined, started
+from bellows_design.analysis.mesh_sequence import affordable_plan, refined, refined_until, started
 from bellows_design.analysis.models import UNIT_CELL, choose
 from bellows_design.analysis.whole_actuator import (
     curve_readings,
@@ -77,13 +77,11 @@ def evaluate(
     body, reason = choose(design, model)
     levels = body.levels - 1
     computation = started(design, body, reason, pressures, progress, budget, levels, keep)
-    while not _enough(computation, accuracy_percent):
-        plan = affordable_plan(computation)
-        if plan is None:
-            late = computation.converged and lacks_time(computation)
-            computation = replace(computation, out_of_time=computation.out_of_time or late)
-            break
-        computation = refined(computation, progress, plan)
+
+    def enough(computation: Computation) -> bool:
+        return _enough(computation, accuracy_percent)
+
+    computation = refined_until(enough, computation, progress)
     return answered(evaluation_of(computation), open_question, progress)
 
 
@@ -192,7 +190,15 @@ def mesh_size(solution: Solution) -> MeshSize:
     return MeshSize(len(problem.mesh.tets), len(problem.mesh.nodes), unknowns)
 
 
-def write_vtu(evaluation: Evaluation, path: Path) -> None:
+class Computed(Protocol):
+    """An evaluation of anything: it has its solutions."""
+
+    @property
+    def computation(self) -> Computation[Any]:
+        """The solutions."""
+
+
+def write_vtu(evaluation: Computed, path: Path) -> None:
     """Write the finest solution for ParaView, completely or not at all."""
     from bellows_design.files.atomic import replacing
     from solver import write_vtu as write
@@ -202,9 +208,18 @@ def write_vtu(evaluation: Evaluation, path: Path) -> None:
 
 
 def _check(design: Design, accuracy_percent: float | None, pressures: Sequence[float]) -> None:
+    check_accuracy(accuracy_percent)
+    check_pressures(pressures, design.load.pressure)
+
+
+def check_accuracy(accuracy_percent: float | None) -> None:
+    """Raise ``DesignError`` for an accuracy, percent, that no evaluation is asked for."""
     if accuracy_percent is not None and not 0.01 <= accuracy_percent <= 100:
         raise DesignError(f"accuracy = {accuracy_percent:g} % must lie between 0.01 and 100 %.")
-    highest = design.load.pressure
+
+
+def check_pressures(pressures: Sequence[float], highest: float) -> None:
+    """Raise ``DesignError`` unless all lie between 0 and the ``highest``, MPa."""
     for pressure in pressures:
         if not 0 < pressure / highest <= 1 + 1e-12:
             raise DesignError(
@@ -214,20 +229,26 @@ def _check(design: Design, accuracy_percent: float | None, pressures: Sequence[f
 
 
 def _enough(computation: Computation, accuracy_percent: float | None) -> bool:
-    """True if there are the model's meshes, and both estimates keep the accuracy asked for.
-
-    Where no mesh can, because of the ends for instance, they need only come near the least ones.
-    """
+    """True if there are the model's meshes, and both estimates keep the accuracy asked for."""
     if len(computation.solved) < computation.model.levels:
         return False
     if accuracy_percent is None:
         return True
     estimates, least = error_estimate(computation), least_estimate(computation)
-    pairs = zip(astuple(estimates), astuple(least), strict=True)
+    return accurate(astuple(estimates), astuple(least), accuracy_percent)
+
+
+def accurate(
+    estimates: Sequence[float | None], least: Sequence[float], accuracy_percent: float
+) -> bool:
+    """Whether all estimates, percent, keep the accuracy asked for.
+
+    Where no mesh can, because of the ends for instance, they need only come near the least ones.
+    """
     return all(
         error is not None
         and (error <= accuracy_percent or (accuracy_percent < bound and error <= NEAR * bound))
-        for error, bound in pairs
+        for error, bound in zip(estimates, least, strict=True)
     )
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from io import BytesIO
 
 import cadquery as cq
 from OCP.BRepAdaptor import BRepAdaptor_Surface
@@ -14,12 +13,12 @@ from bellows_design.analysis.models import thinnest_wall
 from bellows_design.budget import DEFAULT, Budget
 from bellows_design.design.design import Design
 from bellows_design.errors import DesignError
-from bellows_design.geometry.named_solids import NamedSolid
+from bellows_design.geometry.meshable import Meshable
 from bellows_design.machine import GIB
 from solver import Mesh, Solution
 from solver.adaptivity.refinement import Refinement, refined_sizes
 from solver.meshing.estimate import BodySize, FaceSize, expected_elements, expected_memory
-from solver.meshing.solid import MeshOptions, SizeField, mesh_solid
+from solver.meshing.solid import MeshOptions, SizeField
 
 COARSEST_EDGE = 1.33
 """Largest edge of the first mesh in walls' thicknesses: one quadratic element through a wall."""
@@ -35,7 +34,7 @@ ELEMENTS_PER_CIRCLE = 6.0
 class PlannedMesh:
     """A mesh of ``solid`` that is yet to be made."""
 
-    solid: NamedSolid
+    solid: Meshable
     options: MeshOptions
 
     @cached_property
@@ -68,22 +67,23 @@ class PlannedMesh:
                 "allow more with --memory if there is more, or make the thinnest wall thicker, "
                 "the actuator smaller or the model a unit-cell."
             )
-        brep = BytesIO()
-        self.solid.solid.exportBrep(brep)
-        return mesh_solid(brep.getvalue(), self.solid.face_names, self.options, budget.mesh_seconds)
+        return self.solid.meshed(self.options, budget.mesh_seconds)
 
 
-def first_plan(solid: NamedSolid, design: Design) -> PlannedMesh:
-    """Coarsest mesh that carries the load."""
-    wall = thinnest_wall(design)
+def first_plan(solid: Meshable, design: Design) -> PlannedMesh:
+    """Coarsest mesh of a design's body that carries the load."""
+    return coarsest_plan(solid, thinnest_wall(design))
+
+
+def coarsest_plan(solid: Meshable, wall: float) -> PlannedMesh:
+    """Coarsest mesh of a body whose walls are ``wall`` mm thick."""
     return PlannedMesh(solid, MeshOptions(COARSEST_EDGE * wall, 0.0, min(0.1, wall / 4)))
 
 
 def finer_plan(
-    solid: NamedSolid, design: Design, solution: Solution, refinement: Refinement
+    solid: Meshable, wall: float, solution: Solution, refinement: Refinement
 ) -> PlannedMesh:
-    """Mesh that is finer where ``solution`` is least accurate."""
-    wall = thinnest_wall(design)
+    """Mesh that is finer where ``solution`` is least accurate; ``wall`` in mm."""
     field = SizeField(solution.problem.mesh, refined_sizes(solution, refinement))
     size = LARGEST_EDGE * wall
     options = MeshOptions(size, ELEMENTS_PER_CIRCLE, min(0.1, wall / 8), field)
@@ -91,14 +91,16 @@ def finer_plan(
 
 
 @lru_cache(maxsize=4)
-def body_size(solid: NamedSolid) -> BodySize:
+def body_size(body: Meshable) -> BodySize:
     """What the number of elements depends on; kept for the next mesh of the same body."""
-    box = solid.solid.BoundingBox()
     faces = tuple(
         FaceSize(face.Area(), tuple(edge.Length() for edge in face.Edges()), _radius(face))
-        for face in solid.solid.Faces()
+        for solid in body.solids
+        for face in solid.Faces()
     )
-    return BodySize(solid.solid.Volume(), box.DiagonalLength, faces)
+    volume = sum(solid.Volume() for solid in body.solids)
+    whole = cq.Compound.makeCompound(body.solids) if len(body.solids) > 1 else body.solids[0]
+    return BodySize(volume, whole.BoundingBox().DiagonalLength, faces)
 
 
 def _radius(face: cq.Face) -> float:

@@ -12,7 +12,15 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from bellows_design.analysis.computation import Body, Computation, Seconds, SolvedMesh
-from bellows_design.analysis.models import FREE_CELL, HALF, UNIT_CELL, AnalysisModel, shortened
+from bellows_design.analysis.models import (
+    FREE_CELL,
+    HALF,
+    UNIT_CELL,
+    AnalysisModel,
+    Solving,
+    Subject,
+    shortened,
+)
 from bellows_design.beside import Beside, beside
 from bellows_design.budget import DEFAULT, Budget
 from bellows_design.design.design import Design
@@ -21,11 +29,49 @@ from bellows_design.progress import SILENCE, Progress
 if TYPE_CHECKING:
     from bellows_design.analysis.mesh_plan import PlannedMesh
     from solver import Event, Mesh, Problem, Solution, SolverOptions
-    from solver.arrays import Reals
+    from solver.nonlinear.events import Listener
     from solver.nonlinear.newton import Newton
 
 ROUGH = 1e-3
 """Newton tolerance on meshes that are only a step to the next, in units of the body's diagonal."""
+
+
+def begun(
+    subject: Subject,
+    model: AnalysisModel[Subject],
+    reason: str,
+    pressures: Sequence[float] = (),
+    progress: Progress = SILENCE,
+    budget: Budget = DEFAULT,
+    keep: bool = False,
+) -> Computation[Subject]:
+    """``subject`` before its first mesh: the body is built.
+
+    Args:
+        subject: What is computed, under its whole load.
+        model: The body that stands for it.
+        reason: Why this model; goes into the result.
+        pressures: Further pressures to stop at, MPa.
+        progress: Listens to stages and load.
+        budget: Memory (GiB) and seconds that a mesh may take.
+        keep: Keep what the solve on the finest of the model's meshes leaves.
+
+    Returns:
+        A computation without solutions, which ``refined`` adds.
+
+    Raises:
+        GeometryError: The CAD kernel cannot build the body.
+    """
+    from solver.meshing import process as meshing_process
+
+    meshing_process.start()  # loads Gmsh while the solid is built
+    progress.stage(f"geometry of the {model.name}")
+    start = time.perf_counter()
+    body = Body(subject, model)
+    _ = body.solid  # now, so that its time is counted
+    spent = Seconds(geometry=time.perf_counter() - start)
+    asked = tuple(sorted(pressures))
+    return Computation(subject, model, reason, body, asked, budget, seconds=spent, keep=keep)
 
 
 def started(
@@ -72,21 +118,18 @@ def started(
 
     at_once = model is UNIT_CELL and may_run_side_by_side()
     with beside(one_thread()(short_actuator) if at_once else short_actuator, at_once) as ends:
-        progress.stage(f"geometry of the {model.name}")
-        start = time.perf_counter()
-        body = Body(design, model)
-        _ = body.solid  # now, so that its time is counted
-        spent = Seconds(geometry=time.perf_counter() - start)
-        blank = Computation(design, model, reason, body, asked, budget, seconds=spent, keep=keep)
+        blank = begun(design, model, reason, asked, progress, budget, keep)
         first = _refined_beside(ends, blank, progress)
         if model is UNIT_CELL and first.converged:
             return _with_ends(first, meshes, ends, progress)
-    return _refined_to(meshes, first, progress)
+    return refined_to(meshes, first, progress)
 
 
 def refined(
-    computation: Computation, progress: Progress = SILENCE, plan: PlannedMesh | None = None
-) -> Computation:
+    computation: Computation[Subject],
+    progress: Progress = SILENCE,
+    plan: PlannedMesh | None = None,
+) -> Computation[Subject]:
     """The same computation on one finer mesh, started from the finest solution.
 
     Args:
@@ -122,17 +165,18 @@ def refined(
     )
 
 
-def next_plan(computation: Computation) -> PlannedMesh:
+def next_plan(computation: Computation[Subject]) -> PlannedMesh:
     """The mesh after the finest, whatever it takes."""
-    from bellows_design.analysis.mesh_plan import finer_plan, first_plan
+    from bellows_design.analysis.mesh_plan import coarsest_plan, finer_plan
 
-    solid, design = computation.body.solid, computation.design
+    solid, model = computation.body.solid, computation.model
+    wall = model.wall(computation.design)
     if not computation.solved:
-        return first_plan(solid, design)
-    return finer_plan(solid, design, computation.finest, computation.model.refinement)
+        return coarsest_plan(solid, wall)
+    return finer_plan(solid, wall, computation.finest, model.refinement)
 
 
-def affordable_plan(computation: Computation) -> PlannedMesh | None:
+def affordable_plan(computation: Computation[Subject]) -> PlannedMesh | None:
     """The mesh after the finest; None without a solution to refine, or beyond the budget."""
     if not computation.converged or lacks_time(computation):
         return None
@@ -140,12 +184,12 @@ def affordable_plan(computation: Computation) -> PlannedMesh | None:
     return plan if plan.fits(computation.budget) else None
 
 
-def lacks_time(computation: Computation) -> bool:
+def lacks_time(computation: Computation[Subject]) -> bool:
     """Whether a solve on the next mesh would take longer than is left of the budget."""
     return _next_seconds(computation) > computation.seconds_left
 
 
-def _next_seconds(computation: Computation) -> float:
+def _next_seconds(computation: Computation[Subject]) -> float:
     """Time that a solve on the next mesh will take, s, from that on the finest."""
     finest = computation.finest
     each = finest.seconds / max(1, finest.factorizations)
@@ -160,7 +204,10 @@ SOLVE_ORDER = 1.5
 
 
 def _solved_on(
-    mesh: Mesh, computation: Computation, progress: Progress, keep: Callable[[Newton], None]
+    mesh: Mesh,
+    computation: Computation[Subject],
+    progress: Progress,
+    keep: Callable[[Newton], None],
 ) -> Solution:
     """Solve on the next mesh; only the last of the model's meshes needs the full tolerance.
 
@@ -175,7 +222,8 @@ def _solved_on(
     options = _options(computation, tolerance)
     stops = () if level and only_a_step else computation.pressures
     kept = keep if computation.keep and not only_a_step else None
-    return _solved(design, model.problem(design, mesh), progress, options, initial, stops, kept)
+    how = Solving(options, _listener(progress), initial, stops, kept)
+    return model.solve(design, model.problem(design, mesh), how)
 
 
 @dataclass(frozen=True)
@@ -202,7 +250,7 @@ def _with_ends(
     (inner,) = image_gap(first.finest, CAVITY)
     if inner is not None and inner <= 0:
         ends.abandon()
-        return _refined_to(meshes, _with_free_ends(first, progress), progress)
+        return refined_to(meshes, _with_free_ends(first, progress), progress)
     finer = first
     while ends.running and len(finer.solved) < meshes and (plan := affordable_plan(finer)):
         finer = _refined_beside(ends, finer, progress, plan)
@@ -221,16 +269,33 @@ def _with_ends(
             out_of_time=with_ends.out_of_time or finer.out_of_time,
             workspace=finer.workspace,
         )
-    return _refined_to(meshes, with_ends, progress)
+    return refined_to(meshes, with_ends, progress)
 
 
-def _refined_to(meshes: int, computation: Computation, progress: Progress) -> Computation:
+def refined_to(
+    meshes: int, computation: Computation[Subject], progress: Progress = SILENCE
+) -> Computation[Subject]:
     """The computation on so many meshes, as far as they can be afforded."""
     while len(computation.solved) < meshes and (plan := affordable_plan(computation)):
         before = len(computation.solved)
         computation = refined(computation, progress, plan)
         if len(computation.solved) == before:  # the time ended
             break
+    return computation
+
+
+def refined_until(
+    enough: Callable[[Computation[Subject]], bool],
+    computation: Computation[Subject],
+    progress: Progress = SILENCE,
+) -> Computation[Subject]:
+    """The computation on finer and finer meshes until it is ``enough``, or none is affordable."""
+    while not enough(computation):
+        plan = affordable_plan(computation)
+        if plan is None:
+            late = computation.converged and lacks_time(computation)
+            return replace(computation, out_of_time=computation.out_of_time or late)
+        computation = refined(computation, progress, plan)
     return computation
 
 
@@ -297,7 +362,7 @@ def _having(computation: Computation, ends: Solution, spent: Seconds) -> Computa
     return replace(computation, ends=ends, ends_peak=peak_von_mises(ends), seconds=seconds)
 
 
-def _options(computation: Computation, tolerance: float) -> SolverOptions:
+def _options(computation: Computation[Subject], tolerance: float) -> SolverOptions:
     """For one more solve in the time that is left; at least a second, to end in good order."""
     from solver import SolverOptions
 
@@ -309,32 +374,14 @@ def _solved_roughly(
 ) -> Solution:
     """Solve for the ends: what they add is small."""
     options = _options(computation, ROUGH)
-    return _solved(design, problem, progress, options, stops=computation.pressures)
+    how = Solving(options, _listener(progress), stops=computation.pressures)
+    return HALF.solve(design, problem, how)
 
 
-def _solved(
-    design: Design,
-    problem: Problem,
-    progress: Progress,
-    options: SolverOptions,
-    initial: tuple[Reals, Reals] | None = None,
-    stops: Sequence[float] = (),
-    keep: Callable[[Newton], None] | None = None,
-) -> Solution:
-    """Solve at the design's pressure and report the load reached."""
-    from bellows_design.analysis.wall_contact import touch_guard
-    from solver import solve
+def _listener(progress: Progress) -> Listener:
+    """Tells ``progress`` the load that is tried or reached."""
 
     def report(event: Event) -> None:
         progress.load(event.load, event.rotation, event.spent)
 
-    return solve(
-        problem,
-        design.load.pressure,
-        options,
-        listener=report,
-        initial=initial,
-        stops=stops,
-        guard=touch_guard(design.bellows, problem),
-        keep=keep,
-    )
+    return report

@@ -6,9 +6,11 @@ actuator, all of it. Each is exact where the next is symmetric or uniform.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Generic, Protocol
+
+from typing_extensions import TypeVar
 
 from bellows_design.analysis.model_names import ModelName
 from bellows_design.design.design import Design
@@ -16,39 +18,76 @@ from bellows_design.design.lengths import SMALLEST_FEATURE
 from bellows_design.errors import DesignError
 
 if TYPE_CHECKING:
+    from bellows_design.geometry.meshable import Meshable
     from bellows_design.geometry.named_solids import NamedSolid
-    from solver import Contact, Mesh, Problem, SlenderAxis, SurfaceContact
+    from solver import Contact, Mesh, Problem, SlenderAxis, Solution, SolverOptions, SurfaceContact
     from solver.adaptivity.refinement import Refinement
+    from solver.arrays import Reals
+    from solver.nonlinear.events import Listener
+    from solver.nonlinear.newton import Newton
+
+Subject = TypeVar("Subject", default=Design)
+"""What is computed: a design, or a body of one's own."""
+
+_Solved = TypeVar("_Solved", contravariant=True)
 
 FEWEST_BUBBLES = 3
 """From so many bubbles on there is a middle that the ends do not affect."""
 
 
+PEAK_TOLERANCE = 0.03
+
+
 @dataclass(frozen=True)
-class AnalysisModel:
-    """A body that stands for the actuator, with its supports and its load.
+class Solving:
+    """How a problem is solved: ``options``, who listens, where it starts and where it stops.
+
+    ``initial``: displacement (n, 3) and hydrostatic pressure (v,), as ``transfer`` gives them;
+    ``stops``: pressures asked for, MPa; ``keep`` is given what the solve leaves.
+    """
+
+    options: SolverOptions
+    listener: Listener
+    initial: tuple[Reals, Reals] | None = None
+    stops: Sequence[float] = ()
+    keep: Callable[[Newton], None] | None = None
+
+
+class Solve(Protocol[_Solved]):
+    """Solves a problem under the whole load of its subject."""
+
+    def __call__(self, subject: _Solved, problem: Problem, how: Solving, /) -> Solution:
+        """The last equilibrium found."""
+
+
+@dataclass(frozen=True)
+class AnalysisModel(Generic[Subject]):
+    """A body that stands for what is computed, with its supports and its load.
 
     ``solid`` builds it, ``problem`` supports and loads a mesh of it; ``share`` of them make up the
     repeating part (the unit cell: a bubble) or the whole. ``levels`` meshes are used unless more
     accuracy is asked for; ``growth`` is how many times more elements each next one has, about.
+    ``wall``: the thickness, mm, in which edges of a mesh are measured; ``solve`` applies the load;
+    ``peak_tolerance``: wanted difference of stresses near the highest, as a fraction of it.
     """
 
     name: str
-    solid: Callable[[Design], NamedSolid]
-    problem: Callable[[Design, Mesh], Problem]
+    solid: Callable[[Subject], Meshable]
+    problem: Callable[[Subject, Mesh], Problem]
+    wall: Callable[[Subject], float]
+    solve: Solve[Subject]
     share: int
     levels: int
     growth: float
+    peak_tolerance: float = PEAK_TOLERANCE
 
     @property
     def refinement(self) -> Refinement:
         """How the next mesh is made."""
         from solver.adaptivity.refinement import Refinement
 
-        return Refinement(growth=self.growth, peak_tolerance=PEAK_TOLERANCE)
+        return Refinement(growth=self.growth, peak_tolerance=self.peak_tolerance)
 
-
-PEAK_TOLERANCE = 0.03
 
 PENETRATION = 0.005
 """In thinnest walls. Four times as much moves the angle of Prototype 1's cell in vacuum by 0.7 %,
@@ -166,15 +205,48 @@ def _actuator(
     )
 
 
+def thinnest_wall(design: Design) -> float:
+    """Thinnest wall of bubbles and tendon, mm."""
+    return min(design.bellows.bubble_thickness, design.bellows.tendon_thickness)
+
+
+def _solve(design: Design, problem: Problem, how: Solving) -> Solution:
+    """At the design's pressure, as long as no walls touch that the model does not keep apart."""
+    from bellows_design.analysis.wall_contact import touch_guard
+    from solver import solve
+
+    return solve(
+        problem,
+        design.load.pressure,
+        how.options,
+        listener=how.listener,
+        initial=how.initial,
+        stops=how.stops,
+        guard=touch_guard(design.bellows, problem),
+        keep=how.keep,
+    )
+
+
 UNIT_CELL = AnalysisModel(
-    ModelName.UNIT_CELL.value, _cell_solid, _cell_problem, share=4, levels=3, growth=2.0
+    ModelName.UNIT_CELL.value,
+    _cell_solid,
+    _cell_problem,
+    thinnest_wall,
+    _solve,
+    share=4,
+    levels=3,
+    growth=2.0,
 )
-HALF = AnalysisModel(
-    ModelName.HALF.value, _half_solid, _half_problem, share=2, levels=2, growth=1.6
+HALF = replace(
+    UNIT_CELL,
+    name=ModelName.HALF.value,
+    solid=_half_solid,
+    problem=_half_problem,
+    share=2,
+    levels=2,
+    growth=1.6,
 )
-FULL = AnalysisModel(
-    ModelName.FULL.value, _full_solid, _full_problem, share=1, levels=2, growth=1.6
-)
+FULL = replace(HALF, name=ModelName.FULL.value, solid=_full_solid, problem=_full_problem, share=1)
 FREE_CELL = replace(UNIT_CELL, name="free-cell", problem=_free_cell_problem)
 MODELS = {model.name: model for model in (UNIT_CELL, HALF, FULL)}
 
@@ -215,11 +287,6 @@ def shortened(design: Design) -> Design:
 
 LEAST_LENGTH = 10.0
 """mm. Bound of ``BellowsParameters.length``; a longer stub at the tip changes nothing."""
-
-
-def thinnest_wall(design: Design) -> float:
-    """Thinnest wall of bubbles and tendon, mm."""
-    return min(design.bellows.bubble_thickness, design.bellows.tendon_thickness)
 
 
 def sharp_edge_radius(design: Design) -> float:

@@ -114,20 +114,29 @@ def folded_elements(computation: Computation) -> FoldedElements:
 
     That is the finest, or the ends' where these are stressed more.
     """
+    if ends_factor(computation) != 1.0 and computation.ends and computation.ends_peak:
+        solution, peak, place = computation.ends, computation.ends_peak, _place_at_ends
+    else:
+        solution, peak, place = computation.finest, computation.peaks[-1], position
+    found = folds_near(solution, peak)
+    if found.position_mm is None:
+        return found
+    nearest = place(computation, replace(peak, position=found.position_mm))
+    return replace(found, position_mm=nearest)
+
+
+def folds_near(solution: Solution, peak: Peak) -> FoldedElements:
+    """Elements that the load folds, with the place of the one nearest to the highest stress."""
     from solver import folded_elements as folds_in
     from solver.results.folds import folded_around
 
-    solution, peak, place = computation.finest, computation.peaks[-1], position
-    if ends_factor(computation) != 1.0 and computation.ends and computation.ends_peak:
-        solution, peak, place = computation.ends, computation.ends_peak, _place_at_ends
     folds = folds_in(solution)
     if not len(folds.elements):
         return NO_FOLDS
     distances = np.linalg.norm(folds.positions - np.array(peak.position), axis=1)
     x, y, z = (float(each) for each in folds.positions[distances.argmin()])
     near = folded_around(solution.problem.mesh, folds, peak.node)
-    nearest = place(computation, replace(peak, position=(x, y, z)))
-    return FoldedElements(len(folds.elements), nearest, near)
+    return FoldedElements(len(folds.elements), (x, y, z), near)
 
 
 def final_readings(computation: Computation) -> tuple[Reading, ...]:

@@ -98,6 +98,8 @@ def evaluate(
 
     With ``derivatives`` also how every number of the design changes the results.
     """
+    from bellows_design.cli.own_body import evaluate as own_body
+    from bellows_design.cli.own_body.evaluate import body_named
     from bellows_design.cli.pressures import parse_pressures
     from bellows_design.reports.evaluation import evaluation_table
     from bellows_design.reports.sensitivities import sensitivities_table
@@ -105,9 +107,12 @@ def evaluate(
     require_working_folder()
     require_address_space(EVALUATION)
     pressures = () if pressure is None else parse_pressures(pressure)
+    body, budget = body_named(options), limits.budget()
+    if body is not None:
+        asked = (body, model, pressures, accuracy, vtu, budget, derivatives)
+        return own_body.evaluate(*asked)
     chosen = options.load(pressures[-1] if pressures else None)
     require_file(vtu, ".vtu")
-    budget = limits.budget()
     from bellows_design.analysis import evaluate as analysis
     from bellows_design.store import evaluated
 

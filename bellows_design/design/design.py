@@ -6,7 +6,6 @@ once, when the design is made. Errors are ``DesignError`` with one sentence per 
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Self
@@ -32,13 +31,11 @@ from bellows_design.errors import DesignError
 from bellows_design.files.toml_files import toml_table
 from bellows_design.materials.library import load_material, material_at, material_names
 from bellows_design.materials.material import Material
+from bellows_design.validation.file_names import SLUG, require_file_name
 from bellows_design.validation.parameters import Parameters, require
 from bellows_design.validation.quoting import did_you_mean, quoted
 from bellows_design.validation.sentences import sentences
 from printers import PrinterProfile, PrintersError, load_profile, profile_from_table
-
-_SLUG = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_-]{0,63}")
-_WINDOWS_DEVICE = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)", re.IGNORECASE)
 
 
 def is_toml(name_or_path: str) -> bool:
@@ -171,11 +168,7 @@ class Design(Parameters):
     @field_validator("name")
     @classmethod
     def _names_a_file(cls, name: str) -> str:
-        require(
-            bool(_SLUG.fullmatch(name)) and not _WINDOWS_DEVICE.fullmatch(name),
-            f"name is {quoted(name)} but must be 1 to 64 letters, digits, _ or -, "
-            "not begin with - and not be a device of Windows",
-        )
+        require_file_name(name)
         return name
 
     @field_validator("description")
@@ -195,7 +188,7 @@ class Design(Parameters):
         if isinstance(printer, Mapping):
             return _profile_of(printer)
         require(
-            isinstance(printer, str) and (is_toml(printer) or bool(_SLUG.fullmatch(printer))),
+            isinstance(printer, str) and (is_toml(printer) or bool(SLUG.fullmatch(printer))),
             f"printer is {quoted(printer)} but must be the name of a printer profile (1 to 64 "
             "letters, digits, _ or -), a file that ends in .toml, or a table",
         )

@@ -9,7 +9,8 @@ from __future__ import annotations
 import itertools
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from io import BytesIO
+from typing import TYPE_CHECKING, Any
 
 import cadquery as cq
 from cadquery import func
@@ -19,6 +20,10 @@ from OCP.TopExp import TopExp
 from OCP.TopTools import TopTools_IndexedMapOfShape, TopTools_ListOfShape
 
 from bellows_design.errors import BellowsError
+
+if TYPE_CHECKING:
+    from solver import Mesh
+    from solver.meshing import MeshOptions
 
 Point = tuple[float, float, float]
 
@@ -55,6 +60,24 @@ class NamedSolid:
         from OCP.BRep import BRep_Tool
 
         return max(float(BRep_Tool.Tolerance_s(edge.wrapped)) for edge in self.solid.Edges())
+
+    @property
+    def solids(self) -> tuple[cq.Solid, ...]:
+        """The solid."""
+        return (self.solid,)
+
+    @property
+    def brep(self) -> bytes:
+        """The solid as the CAD kernel writes it."""
+        content = BytesIO()
+        self.solid.exportBrep(content)
+        return content.getvalue()
+
+    def meshed(self, options: MeshOptions, seconds: float) -> Mesh:
+        """The mesh with its named surfaces, made within ``seconds``. Raises ``MeshingError``."""
+        from solver.meshing import mesh_solid
+
+        return mesh_solid(self.brep, self.face_names, options, seconds)
 
     def renamed(self, rename: Callable[[cq.Face, str], str]) -> NamedSolid:
         """Same solid, each face called ``rename(face, name)``."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 from rich.box import SIMPLE
 from rich.console import RenderableType
@@ -11,7 +11,8 @@ from rich.table import Table
 from rich.text import Text
 
 if TYPE_CHECKING:
-    from bellows_design.analysis.evaluation import Evaluation
+    from bellows_design.analysis.computation import Seconds
+    from bellows_design.analysis.evaluation import Evaluation, MeshSize, SolverEffort
     from bellows_design.analysis.material_range import ReachedStrain
     from bellows_design.analysis.wall_contact import WallContact
     from bellows_design.analysis.whole_actuator import Reading
@@ -24,7 +25,12 @@ def evaluation_table(evaluation: Evaluation) -> Sequence[RenderableType]:
         table.add_row(name, Text(value))
     curve = [_curve(evaluation.curve)] if len(evaluation.curve) > 1 else []
     notes = [Text(f"warning: {text}", style="yellow") for text in evaluation.warnings]
-    return [table, *curve, *notes, *([] if evaluation.converged else [_not_reached(evaluation)])]
+    return [
+        table,
+        *curve,
+        *notes,
+        *([] if evaluation.converged else [not_reached(evaluation.message)]),
+    ]
 
 
 def _results(evaluation: Evaluation) -> dict[str, str]:
@@ -32,35 +38,57 @@ def _results(evaluation: Evaluation) -> dict[str, str]:
     angle, stress = evaluation.bending_angle_deg, evaluation.max_von_mises_mpa
     return {
         "pressure": f"{evaluation.pressure_mpa:.4g} MPa",
-        "bending angle": f"{angle:.4g}°{_error(error.bending_angle_percent)}",
-        "highest von Mises stress": f"{stress:.4g} MPa{_error(error.max_von_mises_percent)}",
-        "at (x, y, z)": _place(evaluation.max_von_mises_position_mm),
+        "bending angle": f"{angle:.4g}°{error_text(error.bending_angle_percent)}",
+        "highest von Mises stress": f"{stress:.4g} MPa{error_text(error.max_von_mises_percent)}",
+        "at (x, y, z)": place_text(evaluation.max_von_mises_position_mm),
         "cavity volume": f"{evaluation.cavity_volume_mm3:.4g} mm³",
-        "principal strains": _strains(evaluation.strain),
-        "contact": _contact(evaluation.contact),
+        "principal strains": strains_text(evaluation.strain),
+        "contact": contact_text(evaluation.contact),
     }
 
 
 def _effort(evaluation: Evaluation) -> dict[str, str]:
-    mesh, solver = evaluation.mesh, evaluation.solver
+    return effort_rows(evaluation.model.name, evaluation.reason, evaluation)
+
+
+class Solved(Protocol):
+    """What an evaluation took."""
+
+    @property
+    def mesh(self) -> MeshSize:
+        """The size of the finest mesh."""
+
+    @property
+    def solver(self) -> SolverEffort:
+        """What all solves took together."""
+
+    @property
+    def seconds(self) -> Seconds:
+        """Time spent, s."""
+
+
+def effort_rows(model: str, reason: str, found: Solved) -> dict[str, str]:
+    """Model, solver and time."""
+    mesh, solver = found.mesh, found.solver
     return {
-        "model": f"{evaluation.model.name} ({evaluation.reason}), "
-        f"{mesh.elements} tetrahedra, {mesh.unknowns} unknowns",
+        "model": f"{model} ({reason}), {mesh.elements} tetrahedra, {mesh.unknowns} unknowns",
         "solver": f"{solver.load_steps} load steps, {solver.newton_iterations} iterations, "
         f"{solver.linear_solver}",
-        "time": f"{evaluation.seconds.total:.1f} s",
+        "time": f"{found.seconds.total:.1f} s",
     }
 
 
-def _error(percent: float | None) -> str:
+def error_text(percent: float | None) -> str:
+    """An estimated error behind its value."""
     return " (error not estimated)" if percent is None else f" (± {percent:.2g} % estimated)"
 
 
-def _place(position: Sequence[float]) -> str:
+def place_text(position: Sequence[float]) -> str:
+    """A place, or a displacement, mm."""
     return f"({', '.join(f'{coordinate:.2f}' for coordinate in position)}) mm"
 
 
-def _strains(strain: ReachedStrain) -> str:
+def strains_text(strain: ReachedStrain) -> str:
     """The extremes, and the range of the material's tests."""
     text = f"{100 * strain.lowest:+.3g} … {100 * strain.highest:+.3g} %"
     if strain.valid is None:
@@ -69,7 +97,7 @@ def _strains(strain: ReachedStrain) -> str:
     return f"{text} (material tested {100 * low:+.3g} … {100 * high:+.3g} %)"
 
 
-def _contact(contact: WallContact) -> str:
+def contact_text(contact: WallContact) -> str:
     """Which walls touch or else the smallest gaps, and what that means."""
     note = f": {contact.note}" if contact.note else ""
     if contact.detected:
@@ -94,6 +122,6 @@ def _curve(readings: Sequence[Reading]) -> Table:
     return table
 
 
-def _not_reached(evaluation: Evaluation) -> Text:
-    message = evaluation.message or "the load was not reached"
-    return Text(f"NOT CONVERGED: {message}", style="bold red")
+def not_reached(message: str) -> Text:
+    """Why the load was not reached."""
+    return Text(f"NOT CONVERGED: {message or 'the load was not reached'}", style="bold red")

@@ -10,7 +10,7 @@ import types
 from collections.abc import Callable, Mapping
 from dataclasses import fields, is_dataclass
 from functools import cache
-from typing import Any, Literal, Union, get_args, get_origin, get_type_hints
+from typing import Any, Literal, TypeVar, Union, get_args, get_origin, get_type_hints
 
 import numpy as np
 from numpy.typing import NDArray
@@ -57,6 +57,7 @@ def restored(kind: Any, value: Any, arrays: Mapping[str, NDArray[Any]], special:
     def inner(kind: Any, value: Any) -> Any:
         return restored(kind, value, arrays, special)
 
+    kind = _without_parameters(kind)
     origin, parts = get_origin(kind), get_args(kind)
     if kind in special:
         return special[kind](value)
@@ -73,6 +74,14 @@ def restored(kind: Any, value: Any, arrays: Mapping[str, NDArray[Any]], special:
     if origin is tuple:
         return _tuple(parts, value, inner)
     return _plain_value(kind, value)
+
+
+def _without_parameters(kind: Any) -> Any:
+    """The default of a type variable, and a generic record without its variables."""
+    if isinstance(kind, TypeVar):
+        return kind.__default__  # type: ignore[attr-defined]
+    origin = get_origin(kind)
+    return origin if is_dataclass(origin) else kind
 
 
 def _tuple(parts: tuple[Any, ...], value: Any, inner: Callable[[Any, Any], Any]) -> tuple[Any, ...]:

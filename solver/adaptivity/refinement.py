@@ -7,6 +7,8 @@ Two criteria, of which the stricter one counts in each element:
   displacements and angles.
 - *peak*: where the stress is close to its maximum, the difference itself shall be a small fraction
   of that. It controls the error of the reported stress.
+
+Stresses are smoothed within each region, and each region has a maximum of its own.
 """
 
 from __future__ import annotations
@@ -18,6 +20,7 @@ import numpy as np
 from solver.arrays import Reals
 from solver.mesh.elements import TETRAHEDRON_EDGES
 from solver.mesh.mesh import Mesh
+from solver.problem.problem import Problem
 from solver.results.sharp_edges import trusted_nodes
 from solver.results.solution import Solution
 from solver.results.stress import ElementStress, element_stress, von_mises
@@ -52,9 +55,8 @@ def refined_sizes(solution: Solution, refinement: Refinement) -> Reals:
     """Wanted edge lengths of the next mesh at the corners of this one, (n,), mm; 1 elsewhere."""
     mesh = solution.problem.mesh
     stress = element_stress(solution)
-    ratio = np.minimum(
-        _energy_ratios(mesh, stress, refinement.growth), _peak_ratios(solution, stress, refinement)
-    )
+    by_energy = _energy_ratios(solution.problem, stress, refinement.growth)
+    ratio = np.minimum(by_energy, _peak_ratios(solution, stress, refinement))
     sizes = np.log(ratio * mean_edges(mesh))
     corners = mesh.tets[:, :4]
     total = np.bincount(corners.ravel(), np.repeat(sizes, 4), len(mesh.nodes))
@@ -72,9 +74,13 @@ def mean_edges(mesh: Mesh) -> Reals:
     return mean
 
 
-def _energy_ratios(mesh: Mesh, stress: ElementStress, growth: float) -> Reals:
-    """New over old sizes (e,) that spread the error evenly over ``growth`` times the elements."""
-    squares = (von_mises(stress.jumps) ** 2).mean(axis=1)
+def _energy_ratios(problem: Problem, stress: ElementStress, growth: float) -> Reals:
+    """New over old sizes (e,) that spread the error evenly over ``growth`` times the elements.
+
+    The energy of a stress goes with the inverse of the element's shear modulus.
+    """
+    mesh, moduli = problem.mesh, problem.distribution.tet_moduli
+    squares = (von_mises(stress.jumps) ** 2).mean(axis=1) / (moduli / moduli.max())
     error = np.sqrt(np.maximum(squares * stress.volumes, 1e-300))
 
     def ratios(target: float) -> Reals:
@@ -90,10 +96,13 @@ def _energy_ratios(mesh: Mesh, stress: ElementStress, growth: float) -> Reals:
 
 def _peak_ratios(solution: Solution, stress: ElementStress, refinement: Refinement) -> Reals:
     """New over old sizes (e,) that resolve the peak; ``COARSEST`` elsewhere."""
-    trusted = trusted_nodes(solution.problem)[solution.problem.mesh.tets]
+    mesh = solution.problem.mesh
+    trusted = trusted_nodes(solution.problem)[mesh.tets]
     level = np.where(trusted, von_mises(stress.smoothed), 0.0)
     jumps = np.where(trusted, von_mises(stress.jumps), 0.0)
-    peak = level.max()
+    peaks = np.zeros(len(mesh.region_names))
+    np.maximum.at(peaks, mesh.region_of_tet, level.max(axis=1))
+    peak = peaks[mesh.region_of_tet]
     near = (peak > 0) & ((level + jumps).max(axis=1) >= refinement.near_peak * peak)
     wanted = refinement.peak_tolerance * peak / np.maximum(jumps.max(axis=1), 1e-300)
     return np.where(near, np.clip(wanted ** (1 / STRESS_ORDER), FINEST, COARSEST), COARSEST)

@@ -27,7 +27,8 @@ def transfer(solution: Solution, finer_mesh: Mesh) -> tuple[Reals, Reals]:
     """Interpolate a solution to another mesh of the same body, as ``initial`` for ``solve``.
 
     By the shape functions of the element in which each node lies; a node slightly outside of the
-    old mesh takes the extrapolation of the element it is least outside of.
+    old mesh takes the extrapolation of the element it is least outside of. A hydrostatic pressure
+    is that of an element of the same region.
 
     Args:
         solution: on the old mesh.
@@ -40,18 +41,49 @@ def transfer(solution: Solution, finer_mesh: Mesh) -> tuple[Reals, Reals]:
 
     Raises:
         SolverError: no solution, no mesh, or meshes of different bodies: of which the extents
-            differ by more than an edge.
+            differ by more than an edge, or the names of regions.
     """
     check_solution(solution)
     check_instance("transfer: finer_mesh", finer_mesh, Mesh)
-    _check_same_body(solution.problem.mesh, finer_mesh)
     mesh = solution.problem.mesh
+    _check_same_body(mesh, finer_mesh)
     element, barycentric = locate(mesh, finer_mesh.nodes)
     shapes = quadratic_shapes(barycentric, TETRAHEDRON_EDGES)
     displacement = np.einsum("na,nai->ni", shapes, solution.displacement[mesh.tets[element]])
-    corners = solution.hydrostatic_pressure[mesh.tet_vertices[element]]
-    pressure = np.einsum("na,na->n", barycentric, corners)
-    return displacement, pressure[finer_mesh.vertices]
+    pressure = np.zeros(len(finer_mesh.vertices))
+    for number, name in _shared_regions(mesh, finer_mesh):
+        there = np.flatnonzero(finer_mesh.region_of_vertex == number)
+        nodes = finer_mesh.vertices[there]
+        if mesh.regions:
+            own = np.flatnonzero(mesh.region_of_tet == mesh.region_names.index(name))
+            part = Mesh(mesh.nodes, mesh.tets[own])
+            within, barycentric = locate(part, finer_mesh.nodes[nodes])
+            pressure[there] = _interpolated(solution, own[within], barycentric)
+        else:
+            pressure[there] = _interpolated(solution, element[nodes], barycentric[nodes])
+    return displacement, pressure
+
+
+def _interpolated(solution: Solution, elements: NDArray[np.int64], barycentric: Reals) -> Reals:
+    """Hydrostatic pressure (k,) at barycentric coordinates (k, 4) in elements (k,), MPa."""
+    corners = solution.hydrostatic_pressure[solution.problem.mesh.tet_vertices[elements]]
+    pressure: Reals = np.einsum("na,na->n", barycentric, corners)
+    return pressure
+
+
+def _shared_regions(mesh: Mesh, other: Mesh) -> list[tuple[int, str]]:
+    """Numbers in the other mesh, and names, of the regions; ``SolverError`` unless both agree."""
+    ours, theirs = (
+        {each.region_names[number] for number in np.unique(each.region_of_tet)}
+        for each in (mesh, other)
+    )
+    if ours != theirs:
+        names = [", ".join(map(repr, sorted(each))) for each in (ours, theirs)]
+        raise SolverError(
+            f"transfer: both meshes must have the same regions; one has {names[0]}, the other "
+            f"{names[1]} ('' is the rest)."
+        )
+    return [(number, name) for number, name in enumerate(other.region_names) if name in theirs]
 
 
 def _check_same_body(mesh: Mesh, other: Mesh) -> None:

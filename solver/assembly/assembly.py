@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
@@ -24,6 +26,7 @@ from solver.kernels.element import Solid
 from solver.kernels.pressure import assemble_pressure, assemble_volume
 from solver.kernels.stress import extrapolated_stress
 from solver.linear.sparsity import Pattern
+from solver.material.law import Hyperelastic
 from solver.mesh.checks import check_elements
 from solver.mesh.elements import tetrahedron_rule
 from solver.problem.loads import nodal_forces
@@ -241,18 +244,32 @@ NO_SUPPORTS = Supports()
 
 
 def solid(problem: Problem) -> Solid:
-    """Mesh, material and quadrature of a problem, as arrays for the kernels."""
-    mesh, material, rule = problem.mesh, problem.material, tetrahedron_rule()
-    constants = material.constants
+    """Mesh, materials and quadrature of a problem, as arrays for the kernels."""
+    mesh, rule, distribution = problem.mesh, tetrahedron_rule(), problem.distribution
     return Solid(
         nodes=mesh.nodes,
         tets=mesh.tets,
         tet_vertices=mesh.tet_vertices,
-        law=constants.number,
-        constants=constants.values,
-        compliance=material.compliance,
-        logarithmic=material.volumetric == "logarithmic",
+        material_of=distribution.of_tet,
         gradients=rule.gradients,
         linear=rule.linear,
         weights=rule.weights,
+        **_laws(distribution.materials),
     )
+
+
+def with_materials(body: Solid, materials: Sequence[Hyperelastic]) -> Solid:
+    """A body with other materials, by their numbers."""
+    return body._replace(**_laws(materials))
+
+
+def _laws(materials: Sequence[Hyperelastic]) -> dict[str, Any]:
+    """Materials as arrays of a ``Solid``."""
+    constants = [each.constants for each in materials]
+    return {
+        "law": np.array([each.number for each in constants], np.int32),
+        "constants": np.concatenate([each.values for each in constants]),
+        "offsets": np.cumsum([0, *(len(each.values) for each in constants)], dtype=np.int32),
+        "compliance": np.array([each.compliance for each in materials]),
+        "logarithmic": np.array([each.volumetric == "logarithmic" for each in materials]),
+    }

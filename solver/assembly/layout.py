@@ -23,12 +23,14 @@ from solver.problem.unknowns import Numbering, number_unknowns
 class Layout:
     """Numbers of the unknowns of a problem, and where its cells go in residual and tangent.
 
-    ``tets`` (e, 10) and ``triangles`` (k, 6) of the pressurised surfaces; ``places`` of the
+    ``tets`` (e, 10), their ``tet_vertices`` (e, 4) and ``triangles`` (k, 6) of the pressurised
+    surfaces; ``places`` of the
     elements away from the moving plane, ``at_plane`` (m,) those at it; ``plane`` and ``facets``:
     unknowns of the latter elements and of the triangles with their entries in ``pattern``.
     """
 
     tets: Integers
+    tet_vertices: Integers
     triangles: Integers
     numbering: Numbering
     pattern: Pattern
@@ -53,6 +55,7 @@ class Layout:
             facets = _with_plane(facets, numbering)
         return Layout(
             tets=mesh.tets,
+            tet_vertices=mesh.tet_vertices,
             triangles=triangles,
             numbering=numbering,
             pattern=pattern,
@@ -65,8 +68,10 @@ class Layout:
     def fits(self, problem: Problem) -> bool:
         """Whether it is the layout of ``problem`` too."""
         mesh = problem.mesh
-        same_cells = np.array_equal(mesh.tets, self.tets) and np.array_equal(
-            mesh.triangles(*problem.pressurised), self.triangles
+        same_cells = (
+            np.array_equal(mesh.tets, self.tets)
+            and np.array_equal(mesh.tet_vertices, self.tet_vertices)
+            and np.array_equal(mesh.triangles(*problem.pressurised), self.triangles)
         )
         return same_cells and _same(_numbering(problem), self.numbering)
 

@@ -66,7 +66,9 @@ def assemble_chunk(
     for position in range(places.chunks[chunk], places.chunks[chunk + 1]):
         element = places.order[position]
         gather(solid, element, displacement, pressure, x, u, q)
-        jacobians[element] = element_response(solid, x, u, q, geometric[element], tangent, r, k)
+        jacobians[element] = element_response(
+            solid, solid.material_of[element], x, u, q, geometric[element], tangent, r, k
+        )
         scatter(r, k, places.dofs[element], places.entries[element], 1.0, tangent, residual, values)
 
 
@@ -149,7 +151,9 @@ def assemble_plane(
     for row in range(elements.size):
         element = elements[row]
         gather(solid, element, displacement, pressure, x, u, q)
-        jacobians[element] = element_response(solid, x, u, q, own_stress, tangent, r, k)
+        jacobians[element] = element_response(
+            solid, solid.material_of[element], x, u, q, own_stress, tangent, r, k
+        )
         mirror_upper(k)
         for a in range(10):
             height = heights[solid.tets[element, a]]
@@ -167,7 +171,11 @@ def total_energy(solid: Solid, displacement: Reals, pressure: Reals) -> tuple[fl
         nodes = solid.tets[element]
         corners = solid.tet_vertices[element]
         part, size = element_energy(
-            solid, solid.nodes[nodes], displacement[nodes], pressure[corners]
+            solid,
+            solid.material_of[element],
+            solid.nodes[nodes],
+            displacement[nodes],
+            pressure[corners],
         )
         energy += part
         volume += size

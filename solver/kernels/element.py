@@ -20,6 +20,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from solver.arrays import Integers, Reals
 from solver.kernels.hyperelastic import principal_response
@@ -39,25 +40,34 @@ UNKNOWNS = 34
 
 
 class Solid(NamedTuple):
-    """Mesh, material and quadrature of a body, as arrays for the kernels.
+    """Mesh, materials and quadrature of a body, as arrays for the kernels.
 
     ``nodes`` (n, 3), ``tets`` (e, 10), ``tet_vertices`` (e, 4) in the numbering of pressures;
-    the number of the material's ``law`` in the table of laws and its ``constants`` (c,),
-    ``compliance`` = 1 / K and whether the volumetric law is the ``logarithmic`` one; at the q
-    quadrature points the ``gradients`` (q, 10, 3) of the quadratic shape functions with respect to
-    (r, s, t), the values of the ``linear`` ones (q, 4), and ``weights`` (q,).
+    number of each element's material, ``material_of`` (e,); of each material its ``law`` (m,) in
+    the table of laws, its constants from ``offsets[m]`` to ``offsets[m + 1]`` in ``constants``
+    (c,), ``compliance`` (m,) = 1 / K and whether the volumetric law is the ``logarithmic`` one
+    (m,); at the q quadrature points the ``gradients`` (q, 10, 3) of the quadratic shape functions
+    with respect to (r, s, t), the values of the ``linear`` ones (q, 4), and ``weights`` (q,).
     """
 
     nodes: Reals
     tets: Integers
     tet_vertices: Integers
-    law: int
+    material_of: Integers
+    law: Integers
     constants: Reals
-    compliance: float
-    logarithmic: bool
+    offsets: Integers
+    compliance: Reals
+    logarithmic: NDArray[np.bool_]
     gradients: Reals
     linear: Reals
     weights: Reals
+
+
+@compiled()
+def constants_of(solid: Solid, material: int) -> Reals:
+    """The constants that a material's law takes."""
+    return solid.constants[solid.offsets[material] : solid.offsets[material + 1]]
 
 
 @compiled()
@@ -106,8 +116,12 @@ def spatial_gradients(gradients: Reals, inverse: Reals, g: Reals) -> None:
 
 
 @compiled()
-def element_energy(solid: Solid, x: Reals, u: Reals, q: Reals) -> tuple[float, float]:
-    """Pi of one element, N mm, and its volume, mm^3; NaN where J <= 0."""
+def element_energy(
+    solid: Solid, material: int, x: Reals, u: Reals, q: Reals
+) -> tuple[float, float]:
+    """Pi of one element of a material, N mm, and its volume, mm^3; NaN where J <= 0."""
+    law, constants = solid.law[material], constants_of(solid, material)
+    compliance, logarithmic = solid.compliance[material], solid.logarithmic[material]
     gradients = np.empty((10, 3))
     h = np.empty((3, 3))
     b = np.empty((3, 3))
@@ -125,8 +139,8 @@ def element_energy(solid: Solid, x: Reals, u: Reals, q: Reals) -> tuple[float, f
         change = volume_change(h)
         if change <= -1.0:
             return np.nan, np.nan
-        density = law_energy(solid.law, logs, solid.constants) - pressure * change
-        energy += dv * (density + volume_energy(pressure, solid.compliance, solid.logarithmic))
+        density = law_energy(law, logs, constants) - pressure * change
+        energy += dv * (density + volume_energy(pressure, compliance, logarithmic))
         volume += dv
     return energy, volume
 
@@ -134,6 +148,7 @@ def element_energy(solid: Solid, x: Reals, u: Reals, q: Reals) -> tuple[float, f
 @compiled()
 def element_response(
     solid: Solid,
+    material: int,
     x: Reals,
     u: Reals,
     q: Reals,
@@ -144,6 +159,7 @@ def element_response(
 ) -> float:
     """Residual r (34,) and, if ``tangent``, the upper half of the tangent k (34, 34).
 
+    Of an element of a ``material``, by its number.
     ``x``, ``u`` (10, 3) reference coordinates and displacements, mm; ``q`` (4,) pressures, MPa.
     ``geometric`` (points, 6): second Piola-Kirchhoff stress of the geometric part of the tangent,
     MPa, or (0, 6) for the element's own. Returns the smallest J of the quadrature points; unless
@@ -162,6 +178,8 @@ def element_response(
     shear = np.empty(3)
     tau = np.empty(6)
     stiffness = np.empty((6, 6))
+    law, constants = solid.law[material], constants_of(solid, material)
+    compliance, logarithmic = solid.compliance[material], solid.logarithmic[material]
     r[:] = 0.0
     if tangent:
         k[:, :] = 0.0
@@ -182,14 +200,14 @@ def element_response(
             pressure += solid.linear[point, v] * q[v]
         spectrum(h, b, vectors, logs)
         principal_response(
-            solid.law, logs, b, -pressure * jacobian, solid.constants, stress, normal, shear,
+            law, logs, b, -pressure * jacobian, constants, stress, normal, shear,
         )  # fmt: skip
         to_global_axes(vectors, stress, normal, shear, tau, stiffness)
         for a in range(10):
             r[3 * a] += dv * (tau[0] * g[a, 0] + tau[3] * g[a, 1] + tau[5] * g[a, 2])
             r[3 * a + 1] += dv * (tau[3] * g[a, 0] + tau[1] * g[a, 1] + tau[4] * g[a, 2])
             r[3 * a + 2] += dv * (tau[5] * g[a, 0] + tau[4] * g[a, 1] + tau[2] * g[a, 2])
-        swelling, flexibility = volume_law(pressure, solid.compliance, solid.logarithmic)
+        swelling, flexibility = volume_law(pressure, compliance, logarithmic)
         for v in range(4):
             r[30 + v] -= dv * solid.linear[point, v] * (change - swelling)
         if tangent:

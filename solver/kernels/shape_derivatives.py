@@ -19,6 +19,7 @@ from numba import prange
 from solver.arrays import Reals
 from solver.kernels.element import (
     Solid,
+    constants_of,
     displacement_gradient,
     reference_gradients,
     spatial_gradients,
@@ -89,6 +90,9 @@ def work_derivatives(
         for r in range(directions.shape[0]):
             by_position[r, element, :, :] = 0.0
             by_displacement[r, element, :, :] = 0.0
+        material = solid.material_of[element]
+        law, constants = solid.law[material], constants_of(solid, material)
+        compliance, logarithmic = solid.compliance[material], solid.logarithmic[material]
         for point in range(solid.weights.size):
             dv = solid.weights[point] * reference_gradients(x, solid.gradients[point], gradients)
             displacement_gradient(u, gradients, h)
@@ -101,10 +105,10 @@ def work_derivatives(
                 q += solid.linear[point, v] * pressure[solid.tet_vertices[element, v]]
             spectrum(h, b, vectors, logs)
             principal_response(
-                solid.law, logs, b, -q * (1.0 + change), solid.constants, stress, normal, shear,
+                law, logs, b, -q * (1.0 + change), constants, stress, normal, shear,
             )  # fmt: skip
             to_axes_of_space(vectors, stress, tau)
-            swelling, _ = volume_law(q, solid.compliance, solid.logarithmic)
+            swelling, _ = volume_law(q, compliance, logarithmic)
             for r in range(directions.shape[0]):
                 m = 0.0
                 for v in range(4):
@@ -206,6 +210,8 @@ def stress_derivatives(
                 u[a, i] = displacement[node, i]
                 by_position[element, a, i] = 0.0
                 by_displacement[element, a, i] = 0.0
+        material = solid.material_of[element]
+        law, constants = solid.law[material], constants_of(solid, material)
         for point in range(solid.weights.size):
             dv = solid.weights[point] * reference_gradients(x, solid.gradients[point], gradients)
             displacement_gradient(u, gradients, h)
@@ -214,7 +220,7 @@ def stress_derivatives(
             spatial_gradients(gradients, inverse, g)
             spectrum(h, b, vectors, logs)
             principal_response(
-                solid.law, logs, b, 0.0, solid.constants, stress, normal, shear,
+                law, logs, b, 0.0, constants, stress, normal, shear,
             )  # fmt: skip
             for c in range(6):
                 voigt[c] = weights[element, point, c] * (1.0 if c < 3 else 0.5)

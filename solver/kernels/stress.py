@@ -8,6 +8,7 @@ from numba import prange
 from solver.arrays import Reals
 from solver.kernels.element import (
     Solid,
+    constants_of,
     displacement_gradient,
     reference_gradients,
     spatial_gradients,
@@ -63,6 +64,8 @@ def extrapolated_stress(
                 x[a, i] = solid.nodes[solid.tets[element, a], i]
                 u[a, i] = displacement[solid.tets[element, a], i]
                 du[a, i] = displacement_step[solid.tets[element, a], i]
+        material = solid.material_of[element]
+        law, constants = solid.law[material], constants_of(solid, material)
         for point in range(solid.weights.size):
             reference_gradients(x, solid.gradients[point], gradients)
             displacement_gradient(u, gradients, h)
@@ -77,7 +80,7 @@ def extrapolated_stress(
                 dq += solid.linear[point, v] * pressure_step[solid.tet_vertices[element, v]]
             spectrum(h, b, vectors, logs)
             principal_response(
-                solid.law, logs, b, -q * jacobian, solid.constants, stress, normal, shear,
+                law, logs, b, -q * jacobian, constants, stress, normal, shear,
             )  # fmt: skip
             displacement_gradient(du, g, rate)
             along_axes(rate, vectors, turned)
@@ -112,12 +115,14 @@ def deviatoric_stress(solid: Solid, displacement: Reals, stress: Reals, dv: Real
             for i in range(3):
                 x[a, i] = solid.nodes[solid.tets[element, a], i]
                 u[a, i] = displacement[solid.tets[element, a], i]
+        material = solid.material_of[element]
+        law, constants = solid.law[material], constants_of(solid, material)
         for point in range(solid.weights.size):
             determinant = reference_gradients(x, solid.gradients[point], gradients)
             dv[element, point] = determinant * solid.weights[point]
             displacement_gradient(u, gradients, h)
             spectrum(h, b, vectors, logs)
-            law_response(solid.law, logs, gaps, solid.constants, principal, hessian, divided)
+            law_response(law, logs, gaps, constants, principal, hessian, divided)
             mean = (principal[0] + principal[1] + principal[2]) / 3.0
             jacobian = 1.0 + volume_change(h)
             for c in range(6):

@@ -1,9 +1,12 @@
 """Scaling of the unknowns where lengths or moduli are many powers of ten from mm and MPa.
 
+Or from each other, as in a body of several materials.
+
 Unscaled, a linear solver would take pivots for zeros there. A displacement's pivots are of the
 order of mu h, the coupling with a pressure of h^2, for a shear modulus mu and elements of size h.
 With unknowns scaled by (mu h)^(-1/2) and (mu / h^3)^(1/2) all of them are of order 1, whatever the
-units are. The factors are powers of two, so that scaling is exact.
+units are, mu being that of the stiffest element at a node and of the region of a pressure. The
+factors are powers of two, so that scaling is exact.
 """
 
 from __future__ import annotations
@@ -19,17 +22,37 @@ from solver.problem.unknowns import Numbering
 LENGTHS, MODULI = (1e-2, 1e2), (1e-4, 1e4)
 """Mean edges (mm) and shear moduli (MPa) that need no scaling."""
 
+RATIO = 10.0
+"""Ratio of the shear moduli of two materials of one body that needs no scaling."""
+
 
 def factors(problem: Problem, numbering: Numbering) -> Reals | None:
     """Scale of each unknown (m,), or None where none is needed."""
-    edge, mu, size = problem.mesh.edge, problem.material.shear_modulus, problem.mesh.size
-    if LENGTHS[0] <= edge <= LENGTHS[1] and MODULI[0] <= mu <= MODULI[1]:
+    edge, moduli = problem.mesh.edge, problem.distribution.moduli
+    lengths_fit = LENGTHS[0] <= edge <= LENGTHS[1]
+    moduli_fit = MODULI[0] <= moduli.min() <= moduli.max() <= MODULI[1]
+    if lengths_fit and moduli_fit and moduli.max() <= RATIO * moduli.min():
         return None
-    scale = np.full(numbering.size, (mu * edge) ** -0.5)
-    scale[numbering.pressure] = (mu / edge**3) ** 0.5
+    at_nodes, at_vertices = _moduli(problem)
+    scale = np.full(numbering.size, (moduli.max() * edge) ** -0.5)
+    free = numbering.displacement >= 0
+    of_nodes = np.broadcast_to(at_nodes[:, None], free.shape)
+    scale[numbering.displacement[free]] = (of_nodes[free] * edge) ** -0.5
+    scale[numbering.pressure] = (at_vertices / edge**3) ** 0.5
     if numbering.plane[0] >= 0:
-        scale[numbering.plane[0]] /= size  # displaces points by tilt times size
+        scale[numbering.plane[0]] /= problem.mesh.size  # displaces points by tilt times size
     return np.exp2(np.rint(np.log2(scale)))
+
+
+def _moduli(problem: Problem) -> tuple[Reals, Reals]:
+    """Shear moduli that pivots go with, MPa: of displacements by node (n,), of pressures (v,).
+
+    At a node the stiffest element counts, for a pressure the region that it is in.
+    """
+    mesh, distribution = problem.mesh, problem.distribution
+    at_nodes = np.zeros(len(mesh.nodes))
+    np.maximum.at(at_nodes, mesh.tets.ravel(), np.repeat(distribution.tet_moduli, 10))
+    return at_nodes, distribution.region_moduli[mesh.region_of_vertex]
 
 
 def scaled(solver: LinearSolver, scale: Reals | None) -> LinearSolver:

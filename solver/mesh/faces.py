@@ -43,6 +43,14 @@ def lie_outside(triangles: Integers, tets: Integers, outer: NDArray[np.int64], s
     )
 
 
+def elements_at(tets: Integers, triangles: Integers) -> NDArray[np.int64]:
+    """Numbers of the tetrahedra (e, 10) that have one of the ``triangles`` (k, 6) as a face."""
+    size = int(max(tets.max(initial=0), triangles.max(initial=0))) + 1
+    wanted = face_keys(np.sort(triangles[:, :3], axis=1), size)
+    keys = np.stack([face_keys(np.sort(tets[:, face], axis=1), size) for face in FACES], axis=1)
+    return np.flatnonzero(np.isin(keys, wanted).any(axis=1))
+
+
 def edge_keys(
     cells: Integers, edges: tuple[tuple[int, int], ...], number_of_nodes: int
 ) -> NDArray[np.int64]:

@@ -1,4 +1,4 @@
-"""Quadratic tetrahedral meshes with named surfaces."""
+"""Quadratic tetrahedral meshes with named surfaces and regions."""
 
 from __future__ import annotations
 
@@ -16,11 +16,15 @@ from solver.errors import SolverError
 from solver.input_types import mapping, shown
 from solver.mesh.elements import TETRAHEDRON_EDGES
 from solver.mesh.faces import lie_outside, outer_faces
+from solver.mesh.regions import REST, checked_regions, region_numbers, sides_of
 
 
 @dataclass(frozen=True)
 class Mesh:
     """Ten-node tetrahedra, straight or curved, and named six-node triangles on their faces.
+
+    Regions are named sets of tetrahedra that share nodes. A node between them has one side in each:
+    the hydrostatic pressure and recovered stresses may jump there.
 
     All arrays are read-only views of the given ones.
 
@@ -36,14 +40,19 @@ class Mesh:
             mid-nodes of (0, 1) (1, 2) (2, 0); normals point out of the solid.
 
             *Shape:* (k, 6) each.
+        regions: name -> numbers of tetrahedra; those in none make the rest.
+
+            *Shape:* (k,) each.
 
     Raises:
-        SolverError: a shape is wrong, a coordinate is not finite, or a node number is out of range.
+        SolverError: a shape is wrong, a coordinate is not finite, a number of a node or element is
+            out of range, or a region is empty, has no name or shares an element.
     """
 
     nodes: Reals
     tets: Integers
     surfaces: Mapping[str, Integers] = field(default_factory=dict)
+    regions: Mapping[str, Integers] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         nodes = _table("nodes", self.nodes, 3, np.float64)
@@ -60,16 +69,67 @@ class Mesh:
         object.__setattr__(self, "nodes", nodes)
         object.__setattr__(self, "tets", tets)
         object.__setattr__(self, "surfaces", MappingProxyType(surfaces))
+        regions = checked_regions(self.regions, len(tets))
+        object.__setattr__(self, "regions", MappingProxyType(regions))
+
+    @property
+    def region_names(self) -> tuple[str, ...]:
+        """Names of the regions by their numbers: first that of the rest, which is empty."""
+        return (REST, *self.regions)
 
     @cached_property
+    def region_of_tet(self) -> Integers:
+        """Number of each tetrahedron's region, 0 in the rest. (e,)"""
+        return region_numbers(self.regions, len(self.tets))
+
+    @property
     def vertices(self) -> Integers:
-        """Sorted numbers of the nodes at corners of tetrahedra; they carry the pressure. (v,)"""
-        return np.unique(self.tets[:, :4])
+        """Node of each unknown of the hydrostatic pressure, ascending. (v,)
 
-    @cached_property
+        These are the nodes at corners of tetrahedra, once for each region around them.
+        """
+        return self._corner_sides[0]
+
+    @property
+    def region_of_vertex(self) -> Integers:
+        """Number of the region of each unknown of the pressure. (v,)"""
+        return self._corner_sides[1]
+
+    @property
     def tet_vertices(self) -> Integers:
         """The corners of each tetrahedron as positions in ``vertices``. (e, 4)"""
-        return np.searchsorted(self.vertices, self.tets[:, :4]).astype(np.int32)
+        return self._corner_sides[2]
+
+    @property
+    def sides(self) -> Integers:
+        """Nodes, once for each region around them, ascending; without regions all. (s,)"""
+        return self._node_sides[0]
+
+    @property
+    def region_of_side(self) -> Integers:
+        """Number of the region that each of the ``sides`` lies in. (s,)"""
+        return self._node_sides[1]
+
+    @property
+    def tet_sides(self) -> Integers:
+        """The nodes of each tetrahedron as positions in ``sides``. (e, 10)"""
+        return self._node_sides[2]
+
+    @cached_property
+    def _corner_sides(self) -> tuple[Integers, Integers, Integers]:
+        corners = self.tets[:, :4]
+        if self.regions:
+            return sides_of(corners, self.region_of_tet, len(self.region_names))
+        vertices = np.unique(corners)
+        positions = np.searchsorted(vertices, corners).astype(np.int32)
+        return vertices, np.zeros(len(vertices), np.int32), positions
+
+    @cached_property
+    def _node_sides(self) -> tuple[Integers, Integers, Integers]:
+        if self.regions:
+            return sides_of(self.tets, self.region_of_tet, len(self.region_names))
+        nodes = np.arange(len(self.nodes), dtype=np.int32)
+        return nodes, np.zeros(len(nodes), np.int32), self.tets
 
     @cached_property
     def outer_faces(self) -> NDArray[np.int64]:
@@ -103,7 +163,7 @@ class Mesh:
         return float(np.linalg.norm(a - b, axis=2).mean()) if len(self.tets) else 0.0
 
     def moved(self, nodes: Reals) -> Mesh:
-        """The same tetrahedra and surfaces with nodes elsewhere.
+        """The same tetrahedra, surfaces and regions with nodes elsewhere.
 
         Args:
             nodes: their new reference coordinates.
@@ -117,10 +177,7 @@ class Mesh:
             raise SolverError(
                 f"mesh: moved nodes must have the shape {self.nodes.shape}, got {np.shape(nodes)}."
             )
-        other = replace(self, nodes=nodes)
-        known = {name: self.__dict__[name] for name in CONNECTIVITY if name in self.__dict__}
-        other.__dict__.update(known)
-        return other
+        return self._known_to(replace(self, nodes=nodes), (*OF_CELLS, *OF_SURFACES, *OF_REGIONS))
 
     def with_surfaces(self, surfaces: Mapping[str, Integers]) -> Mesh:
         """The same mesh with more named surfaces, or others of the same names.
@@ -132,8 +189,24 @@ class Mesh:
             SolverError: a table of another shape, or a node number out of range.
         """
         other = replace(self, surfaces={**self.surfaces, **surfaces})
-        kept = (name for name in CONNECTIVITY if name != "boundary_surfaces")
-        other.__dict__.update({name: self.__dict__[name] for name in kept if name in self.__dict__})
+        return self._known_to(other, (*OF_CELLS, *OF_REGIONS))
+
+    def with_regions(self, regions: Mapping[str, Integers]) -> Mesh:
+        """The same mesh with more named regions, or others of the same names.
+
+        Args:
+            regions: name -> numbers of tetrahedra as in ``regions``.
+
+        Raises:
+            SolverError: as for a new mesh: regions that are not disjoint, empty or out of range.
+        """
+        other = replace(self, regions={**self.regions, **regions})
+        return self._known_to(other, (*OF_CELLS, *OF_SURFACES))
+
+    def _known_to(self, other: Mesh, properties: tuple[str, ...]) -> Mesh:
+        """``other`` with those properties that are known already and the same."""
+        known = {name: self.__dict__[name] for name in properties if name in self.__dict__}
+        other.__dict__.update(known)
         return other
 
     @property
@@ -157,8 +230,11 @@ class Mesh:
         return np.unique(self.triangles(*names))
 
 
-CONNECTIVITY = ("vertices", "tet_vertices", "outer_faces", "boundary_surfaces")
-"""Properties of a mesh that do not depend on where its nodes are."""
+OF_CELLS = ("outer_faces",)
+OF_SURFACES = ("boundary_surfaces",)
+OF_REGIONS = ("region_of_tet", "_corner_sides", "_node_sides")
+"""Properties of a mesh that depend on its tetrahedra and, besides, on surfaces or regions; not on
+where its nodes are."""
 
 
 def _table(name: str, values: ArrayLike, width: int, dtype: DTypeLike) -> NDArray[Any]:

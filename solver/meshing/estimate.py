@@ -63,11 +63,28 @@ class BodySize:
 
 def expected_elements(body: BodySize, options: MeshOptions) -> float:
     """Number of tetrahedra that ``mesh_solid`` will make of ``body``, within a factor of 1.5."""
-    edge = min(options.size, body.diagonal / DIAGONALS)
-    triangles = sum(_expected_triangles(face, edge, options) for face in body.faces)
+    return expected_elements_of_parts((body,), options)
+
+
+def expected_elements_of_parts(
+    bodies: Sequence[BodySize], options: MeshOptions, sizes: Sequence[float | None] = ()
+) -> float:
+    """Number of tetrahedra that ``mesh_solids`` will make of touching ``bodies``.
+
+    ``sizes`` are the parts' own largest edges, mm, or None for those of the options. Of the bodies'
+    diagonals the largest counts, which should be that of all together.
+    """
+    largest = min(options.size, max(body.diagonal for body in bodies) / DIAGONALS)
+    edges = [min(largest, size or np.inf) for size in sizes or [None] * len(bodies)]
+    pairs = list(zip(bodies, edges, strict=True))
+    triangles = sum(
+        _expected_triangles(face, edge, options) for body, edge in pairs for face in body.faces
+    )
     if options.field is None:
-        return PER_TRIANGLE * triangles + PER_CUBE * body.volume / edge**3
-    return PER_TRIANGLE * triangles + PER_CUBE_OF_FIELD * _cubes(options.field, options.size)
+        inside = PER_CUBE * sum(body.volume / edge**3 for body, edge in pairs)
+    else:
+        inside = PER_CUBE_OF_FIELD * _cubes(options.field, options.size)
+    return PER_TRIANGLE * triangles + inside
 
 
 def expected_memory(elements: float) -> float:

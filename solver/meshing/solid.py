@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -110,30 +110,33 @@ def mesh_solid(
         SolverError: the number of names is not the number of faces, or ``seconds`` is not above 0.
         OSError: ``brep`` cannot be read, or Gmsh cannot be loaded.
     """
-    _check_kinds(brep, options, seconds)
+    check_solid("mesh: brep", brep)
+    check_call(options, seconds)
     face_names = names("mesh: face_names", face_names)
-    content = brep if isinstance(brep, bytes) else brep.read_bytes()
-    for factor in SIZES_TRIED:
-        smaller = (options or MeshOptions()).scaled(factor)
-        arrays = _from_gmsh(content, len(face_names), smaller, seconds)
-        tets = arrays["tets"]
-        nodes = relaxed(arrays["nodes"], tets)
-        folded = _folded_element(nodes, tets)
-        if not folded:
-            break
-    else:
-        raise MeshingError(folded)
+    content, wanted = content_of(brep), options or MeshOptions()
+    arrays, nodes = unfolded(
+        lambda factor: _from_gmsh(content, len(face_names), wanted.scaled(factor), seconds)
+    )
     corners = np.split(arrays["corners"], np.cumsum(arrays["counts"])[:-1])
-    return Mesh(nodes, tets, _named_surfaces(tets, corners, face_names))
+    return Mesh(nodes, arrays["tets"], named_surfaces(arrays["tets"], corners, face_names))
 
 
-def _check_kinds(brep: object, options: object, seconds: float) -> None:
-    """Raise ``SolverError`` for another kind of value than belongs there."""
+def check_solid(what: str, brep: object) -> None:
+    """Raise ``SolverError`` unless ``brep`` may be a solid."""
     if not isinstance(brep, Path | bytes):
         raise SolverError(
-            "mesh: brep must be a Path of a BREP file or the content of one as bytes, got "
+            f"{what} must be a Path of a BREP file or the content of one as bytes, got "
             f"{shown(brep)}."
         )
+
+
+def content_of(brep: Path | bytes) -> bytes:
+    """What a BREP file has, or what is given of one."""
+    return brep if isinstance(brep, bytes) else brep.read_bytes()
+
+
+def check_call(options: object, seconds: float) -> None:
+    """Raise ``SolverError`` for other options and time limits than these calls take."""
     check_instance("mesh: options", options, MeshOptions, optional=True)
     check_number("mesh: seconds", seconds)
     if not 0 < seconds < np.inf:
@@ -144,14 +147,39 @@ SIZES_TRIED = (1.0, 0.93, 0.87)
 """Factors on the sizes wanted, until no element is folded: that is a matter of chance."""
 
 
+def unfolded(
+    mesh: Callable[[float], Mapping[str, NDArray[Any]]],
+) -> tuple[Mapping[str, NDArray[Any]], Reals]:
+    """The first arrays of a ``mesh`` without folded elements, and the nodes that make them so.
+
+    ``mesh`` takes a factor on the sizes. Raises ``MeshingError`` if there is none.
+    """
+    folded = ""
+    for factor in SIZES_TRIED:
+        arrays = mesh(factor)
+        nodes = relaxed(arrays["nodes"], arrays["tets"])
+        folded = _folded_element(nodes, arrays["tets"])
+        if not folded:
+            return arrays, nodes
+    raise MeshingError(folded)
+
+
 def _from_gmsh(
     brep: bytes, faces: int, options: MeshOptions, seconds: float
 ) -> Mapping[str, NDArray[Any]]:
     """The result of ``gmsh_calls.meshed`` in the other process."""
     job = Message(
-        {"faces": faces, "settings": _settings(options)},
-        {"brep": np.frombuffer(brep, np.uint8), "field": _field_table(options.field)},
+        {"faces": faces, "settings": gmsh_settings(options)},
+        {"brep": np.frombuffer(brep, np.uint8), "field": field_table(options.field)},
     )
+    answer = answer_to(job, seconds)
+    if "faces" in answer.values:
+        raise SolverError(f"mesh: {faces} names for {answer.values['faces']} faces of the solid.")
+    return answer.arrays
+
+
+def answer_to(job: Message, seconds: float) -> Message:
+    """The meshing process's answer to ``job``; raises the error that it reports."""
     try:
         answer = ask(job, seconds)
     except MesherTimeout:
@@ -163,21 +191,14 @@ def _from_gmsh(
         if crash.cause is not None:
             raise MeshingError(crash.cause) from None
         raise MeshingError(f"Gmsh crashed on this solid ({crash}); try other numbers") from None
-    return _accepted(answer, faces)
-
-
-def _accepted(answer: Message, faces: int) -> Mapping[str, NDArray[Any]]:
-    """The arrays of an answer; raises the error that it reports."""
     if "failed" in answer.values:
         raise OSError(answer.values["failed"])
-    if "faces" in answer.values:
-        raise SolverError(f"mesh: {faces} names for {answer.values['faces']} faces of the solid.")
     if "refused" in answer.values:
         raise MeshingError(answer.values["refused"])
-    return answer.arrays
+    return answer
 
 
-def _settings(options: MeshOptions) -> dict[str, float]:
+def gmsh_settings(options: MeshOptions) -> dict[str, float]:
     """Gmsh's options by name."""
     return {
         "Mesh.MeshSizeMax": options.size,
@@ -186,7 +207,7 @@ def _settings(options: MeshOptions) -> dict[str, float]:
     }
 
 
-def _field_table(field: SizeField | None) -> Reals:
+def field_table(field: SizeField | None) -> Reals:
     """Corners and wanted sizes of the field's tetrahedra (t, 16); see ``gmsh_calls.meshed``."""
     if field is None:
         return np.empty((0, 16))
@@ -195,7 +216,7 @@ def _field_table(field: SizeField | None) -> Reals:
     return np.hstack([*np.moveaxis(points, 2, 0), SIZE_OF_EDGE * field.sizes[corners]])
 
 
-def _named_surfaces(
+def named_surfaces(
     tets: NDArray[np.int32], corners: Sequence[NDArray[np.int64]], names: Sequence[str]
 ) -> dict[str, NDArray[np.int32]]:
     """Six-node triangles by name, taken from the tetrahedra so that normals point outwards."""

@@ -71,22 +71,45 @@ def _load_gmsh() -> dict[str, str] | None:
 
 
 def _answer(job: Any, folder: Path, failure: dict[str, str] | None) -> Any:
-    from solver.meshing.gmsh_calls import OtherFaces, Refusal, meshed
+    from solver.meshing.gmsh_calls import OtherFaces, Refusal
     from solver.meshing.messages import Message
 
     if failure is not None:
         return Message(failure)
-    brep = _named_for_gmsh(folder, "solid.brep")
     try:
-        brep.write_bytes(job.arrays["brep"].tobytes())
-        arrays = meshed(brep, job.values["faces"], job.values["settings"], job.arrays["field"])
+        return Message({}, (_of_parts if "parts" in job.values else _of_one)(job, folder))
     except Refusal as refusal:
         return Message({"refused": str(refusal)})
     except OtherFaces as others:
-        return Message({"faces": others.count})
+        return Message({"faces": others.count, "part": others.part})
     except OSError as error:
         return Message({"refused": f"Gmsh cannot use its temporary folder: {error.strerror}"})
-    return Message({}, arrays)
+
+
+def _of_one(job: Any, folder: Path) -> Any:
+    """Arrays of the mesh of one solid."""
+    from solver.meshing.gmsh_calls import meshed
+
+    brep = _written(folder, "solid.brep", job.arrays["brep"])
+    return meshed(brep, job.values["faces"], job.values["settings"], job.arrays["field"])
+
+
+def _of_parts(job: Any, folder: Path) -> Any:
+    """Arrays of the mesh of several solids."""
+    from solver.meshing.gmsh_parts import Solid, meshed_parts
+
+    solids = [
+        Solid(_written(folder, f"{number}.brep", job.arrays[f"brep {number}"]), **values)
+        for number, values in enumerate(job.values["parts"])
+    ]
+    return meshed_parts(solids, job.values["settings"], job.arrays["field"])
+
+
+def _written(folder: Path, name: str, content: Any) -> Path:
+    """The path of a file with some content, as Gmsh takes it."""
+    path = _named_for_gmsh(folder, name)
+    path.write_bytes(content.tobytes())
+    return path
 
 
 def _named_for_gmsh(folder: Path, name: str) -> Path:

@@ -36,7 +36,7 @@ from solver.nonlinear.options import SolverOptions
 from solver.problem.problem import Problem
 from solver.results.sharp_edges import trusted_nodes
 from solver.results.solution import PathPoint
-from solver.results.stress import Peak, deviatoric_at_nodes, von_mises
+from solver.results.stress import Peak, deviatoric_at_sides, von_mises
 
 DIFFERENCE = 1e-6
 """Fraction of the load between the two residuals of a difference quotient."""
@@ -215,10 +215,15 @@ class Newton:
         return max(found.size / self.problem.mesh.size, found.pressure_size / PRESSURE_SHARE)
 
     def pressure_size(self, increment: State, moved: State) -> float:
-        """Largest hydrostatic pressure of an increment, relative to its scale in a state."""
-        changes = np.abs(increment.hydrostatic_pressure).max(initial=0.0)
-        scale = np.abs(moved.hydrostatic_pressure).max(initial=0.0)
-        return float(changes / (self.problem.material.shear_modulus + scale))
+        """Largest hydrostatic pressure of an increment, relative to its scale in a state.
+
+        Each region has its own scale: its shear modulus and its largest pressure.
+        """
+        region, moduli = self.problem.mesh.region_of_vertex, self.problem.distribution.region_moduli
+        changes, scales = np.zeros((2, len(moduli)))
+        np.maximum.at(changes, region, np.abs(increment.hydrostatic_pressure))
+        np.maximum.at(scales, region, np.abs(moved.hydrostatic_pressure))
+        return float((changes / (moduli + scales)).max())
 
     def _accepted(
         self, found: Correction, load: float, iterations: int, guess: State, onward: bool
@@ -330,8 +335,20 @@ class Newton:
         step = reached.direction.scaled(target - load)
         moved = self.kinematics.advanced(reached.state, step)
         if self.problem.supports.prescribed:  # displaces nodes without unknowns
-            return self.kinematics.with_supports(moved, target)
+            there = self.kinematics.with_supports(moved, target)
+            if self.assembly.films is None:
+                return there
+            led = self._led(reached.state, load, target)
+            whole = replace(step, displacement=step.displacement + led)
+            return self._with_membrane_stress(reached.state, whole, there)
         return self.with_stress(reached.state, step, moved)
+
+    def _led(self, state: State, load: float, target: float) -> Reals:
+        """What supports lead between two loads to first order, displacements (n, 3)."""
+        step = DIFFERENCE if load < 0.5 else -DIFFERENCE
+        there = self.kinematics.with_supports(state, load + step)
+        led: Reals = (there.displacement - state.displacement) * ((target - load) / step)
+        return led
 
     def _extrapolated(self, found: Correction) -> State:
         """The corrected state with the stress after the correction, to first order."""
@@ -342,13 +359,18 @@ class Newton:
 
         Not used on a cell with a moving plane (see the module's text).
         """
-        films = self.assembly.films
-        if films is not None:
-            moved = replace(moved, membrane_stress=films.extrapolated_stress(state, increment))
+        moved = self._with_membrane_stress(state, increment, moved)
         if not self.slender:
             return moved
         stress = self.assembly.extrapolated_stress(state, increment)
         return replace(moved, geometric_stress=stress)
+
+    def _with_membrane_stress(self, state: State, increment: State, moved: State) -> State:
+        """The same for the stress of membranes; ``moved`` itself without any."""
+        films = self.assembly.films
+        if films is None:
+            return moved
+        return replace(moved, membrane_stress=films.extrapolated_stress(state, increment))
 
     def passed(self, before: State, load: float, after: State, target: float) -> str:
         """Why a state at ``target`` cannot follow one at ``load``: bodies passed; else empty."""
@@ -382,8 +404,8 @@ class Newton:
 
     def _highest_stress(self, state: State) -> float:
         """Largest nodal von Mises stress, MPa."""
-        stress = von_mises(deviatoric_at_nodes(self.problem, state.displacement))
-        return float(stress[self.trusted].max(initial=0.0))
+        stress = von_mises(deviatoric_at_sides(self.problem, state.displacement))
+        return float(stress[self.trusted[self.problem.mesh.sides]].max(initial=0.0))
 
     def notify(
         self,

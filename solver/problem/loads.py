@@ -11,7 +11,8 @@ import numpy as np
 
 from solver.arrays import Integers, Reals
 from solver.errors import SolverError
-from solver.input_types import check_number, shown
+from solver.input_types import check_number, names, shown
+from solver.mesh.edges import SHAPES, common_edge, lengths
 from solver.mesh.elements import Rule, tetrahedron_rule, triangle_rule
 from solver.mesh.mesh import Mesh
 
@@ -37,16 +38,18 @@ class Traction:
 
 @dataclass(frozen=True)
 class BodyForce:
-    """A dead force in the whole body.
+    """A dead force in the whole body, or in a region of its mesh.
 
     Attributes:
         density: force per volume of the undeformed body, N/mm^3: a vector, or a function of
             reference positions.
 
             *Shape:* (3,), or (k, 3) in mm -> (k, 3) in N/mm^3.
+        region: name of the region; None for the whole body.
     """
 
     density: Field
+    region: str | None = None
 
 
 @dataclass(frozen=True)
@@ -60,6 +63,26 @@ class PointForce:
 
     position: tuple[float, float, float]
     force: tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class EdgeForce:
+    """A dead force spread evenly along the edge where two surfaces meet.
+
+    Attributes:
+        surfaces: names of both surfaces.
+        force: components of the whole force, N; per length of the undeformed edge the same all
+            along it.
+    """
+
+    surfaces: tuple[str, str]
+    force: tuple[float, float, float]
+
+    def __post_init__(self) -> None:
+        given = names("edge force: surfaces", self.surfaces)
+        if len(given) != 2:
+            raise SolverError(f"edge force: surfaces must be two names, got {len(given)}.")
+        object.__setattr__(self, "surfaces", given)
 
 
 @dataclass(frozen=True)
@@ -89,7 +112,7 @@ class AxialForce:
     force: float
 
 
-Load: TypeAlias = Traction | BodyForce | PointForce | Couple | AxialForce
+Load: TypeAlias = Traction | BodyForce | PointForce | EdgeForce | Couple | AxialForce
 
 LOAD_KINDS: tuple[type, ...] = get_args(Load)
 
@@ -100,8 +123,8 @@ PLANE_LOADS = (Couple, AxialForce)
 def nodal_forces(mesh: Mesh, loads: Sequence[Load]) -> Reals:
     """Consistent nodal forces (n, 3) in N of all ``loads`` but those on a moving plane.
 
-    Raises ``SolverError`` for an unknown surface, a point force on no node, or a value that is not
-    a finite vector.
+    Raises ``SolverError`` for an unknown surface, a point force on no node, surfaces without a
+    common edge, or a value that is not a finite vector.
     """
     forces = np.zeros(mesh.nodes.shape)
     for load in loads:
@@ -123,8 +146,10 @@ def check_loads(loads: Sequence[Load], moving_plane: str | None) -> None:
 
 
 def loaded_surfaces(loads: Sequence[Load]) -> tuple[str, ...]:
-    """Names of the surfaces with tractions."""
-    return tuple(load.surface for load in loads if isinstance(load, Traction))
+    """Names of the surfaces with tractions, and of those with a force on their edge."""
+    tractions = (load.surface for load in loads if isinstance(load, Traction))
+    edges = (name for load in loads if isinstance(load, EdgeForce) for name in load.surfaces)
+    return (*tractions, *edges)
 
 
 def plane_loads(loads: Sequence[Load]) -> Reals:
@@ -152,17 +177,30 @@ def _sum(what: str, values: Sequence[float], unit: str) -> float:
     return total
 
 
-def _forces(mesh: Mesh, load: Traction | BodyForce | PointForce) -> Reals:
+def _forces(mesh: Mesh, load: Traction | BodyForce | PointForce | EdgeForce) -> Reals:
     if isinstance(load, PointForce):
         return _on_node(mesh, load)
+    if isinstance(load, EdgeForce):
+        return _on_edge(mesh, load)
     if isinstance(load, Traction):
         cells, rule = mesh.triangles(load.surface), triangle_rule()
         tangents = np.einsum("qad,kai->dkqi", rule.gradients, mesh.nodes[cells])
         sizes = np.linalg.norm(np.cross(tangents[0], tangents[1]), axis=-1)
         return _integrated(mesh, cells, rule, sizes, load.stress)
-    cells, rule = mesh.tets, tetrahedron_rule()
+    cells, rule = _elements(mesh, load.region), tetrahedron_rule()
     sizes = np.linalg.det(np.einsum("qad,kai->kqdi", rule.gradients, mesh.nodes[cells]))
     return _integrated(mesh, cells, rule, sizes, load.density)
+
+
+def _elements(mesh: Mesh, region: str | None) -> Integers:
+    """Tetrahedra (k, 10) of a region, or all; ``SolverError`` for an unknown one."""
+    if region is None:
+        return mesh.tets
+    if region not in mesh.regions:
+        known = ", ".join(mesh.regions) or "none"
+        raise SolverError(f"load: unknown region {region!r}; the mesh has {known}.")
+    elements: Integers = mesh.tets[mesh.regions[region]]
+    return elements
 
 
 def _integrated(mesh: Mesh, cells: Integers, rule: Rule, sizes: Reals, field: Field) -> Reals:
@@ -192,6 +230,15 @@ def node_at(mesh: Mesh, position: tuple[float, float, float], what: str = "point
 def _on_node(mesh: Mesh, load: PointForce) -> Reals:
     forces = np.zeros(mesh.nodes.shape)
     forces[node_at(mesh, load.position)] = _values(load.force, np.zeros((1, 3)))[0]
+    return forces
+
+
+def _on_edge(mesh: Mesh, load: EdgeForce) -> Reals:
+    lines = common_edge(mesh, *load.surfaces)
+    sizes, forces = lengths(mesh.nodes, lines), np.zeros(mesh.nodes.shape)
+    shares = np.einsum("kq,qa->ka", sizes, SHAPES) / sizes.sum()
+    total = _values(load.force, np.zeros((1, 3)))[0]
+    np.add.at(forces, lines, shares[..., None] * total)
     return forces
 
 

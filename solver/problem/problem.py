@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,6 +14,7 @@ from solver.errors import SolverError
 from solver.input_types import check_instance, check_number, members_of, names, numbers
 from solver.material.law import Hyperelastic
 from solver.mesh.mesh import Mesh
+from solver.problem.materials import Distribution, checked_materials
 from solver.problem.supports import Supports
 
 if TYPE_CHECKING:
@@ -52,7 +56,7 @@ class Problem:
 
     Attributes:
         mesh: the undeformed body.
-        material: its hyperelastic law.
+        material: its hyperelastic law, where ``materials`` names no other.
         supports: displacement boundary conditions.
         pressurised: names of the surfaces under pressure.
         loads: dead loads; with a moving plane couples and axial forces only.
@@ -69,12 +73,13 @@ class Problem:
         springs: linear springs between the body and the ground; none with a moving plane.
         membranes: films on surfaces that stretch by their modulus and bend freely; none with a
             moving plane.
+        materials: region of the mesh -> its hyperelastic law.
 
     Raises:
-        SolverError: a surface is unknown, has no triangles or is not made of outer faces, the
-            moving plane is not plane, loads, springs, membranes or rigid bodies do not go with it,
-            a contact has no plane, supports and springs leave a rigid motion free, or the supports
-            leave the pressure of an incompressible body undetermined.
+        SolverError: a surface or region is unknown, a surface has no triangles or is not made of
+            outer faces, the moving plane is not plane, loads, springs, membranes or rigid bodies do
+            not go with it, a contact has no plane, supports and springs leave a rigid motion free,
+            or the supports leave the pressure of an incompressible body or region undetermined.
     """
 
     mesh: Mesh
@@ -87,6 +92,7 @@ class Problem:
     sharp_edge_radius: float = 0.0
     contacts: tuple[AnyContact, ...] = ()
     springs: tuple[Spring, ...] = ()
+    materials: Mapping[str, Hyperelastic] = field(default_factory=dict)
     membranes: tuple[Membrane, ...] = ()
 
     def __post_init__(self) -> None:
@@ -114,8 +120,14 @@ class Problem:
                 f"sharp_edge_radius = {self.sharp_edge_radius} mm must be a number of at least 0."
             )
         check_supports(self.mesh, self.supports, self.moving_plane, self.springs)
-        if self.material.compliance == 0:
-            check_pressure(self.mesh, fixed_displacements(self.mesh, self.supports))
+        if not all(each.compliance for each in self.distribution.materials):
+            fixed = fixed_displacements(self.mesh, self.supports)
+            check_pressure(self.distribution, fixed)
+
+    @cached_property
+    def distribution(self) -> Distribution:
+        """Which material is where."""
+        return Distribution(self.mesh, self.material, self.materials)
 
     def _check_kinds(self) -> None:
         """Raise ``SolverError`` for values of another kind; sequences become tuples."""
@@ -127,5 +139,7 @@ class Problem:
         check_instance("axis", self.axis, SlenderAxis, optional=True)
         check_instance("moving_plane", self.moving_plane, str, optional=True)
         check_number("sharp_edge_radius", self.sharp_edge_radius)
+        materials = MappingProxyType(checked_materials(self.mesh, self.materials))
+        object.__setattr__(self, "materials", materials)
         object.__setattr__(self, "pressurised", names("pressurised", self.pressurised))
         object.__setattr__(self, "loads", members_of("loads", self.loads, LOAD_KINDS))

@@ -13,6 +13,7 @@ from solver.errors import SolverError
 from solver.mesh.connectivity import connected_parts
 from solver.mesh.elements import tetrahedron_rule
 from solver.mesh.mesh import Mesh
+from solver.problem.materials import Distribution
 from solver.problem.springs import Spring, held_directions
 from solver.problem.supports import Supports, fixed_displacements, prescribed_motion
 
@@ -56,27 +57,51 @@ def check_supports(
             )
 
 
-def check_pressure(mesh: Mesh, fixed: NDArray[np.bool_]) -> None:
-    """Raise ``SolverError`` if no free displacement can change the volume of the body.
+def check_pressure(distribution: Distribution, fixed: NDArray[np.bool_]) -> None:
+    """Raise ``SolverError`` if free displacements cannot change some volume that is incompressible.
 
-    The hydrostatic pressure of an incompressible body is then known but for a constant. The
-    derivative of the volume vanishes at inner nodes, so a displacement on the surface must be free.
+    The hydrostatic pressure there is then known but for a constant. Each connected part of an
+    incompressible region may have its own constant; no sum of their volumes may be the same
+    whatever the free displacements (n, 3) are. The derivative of a volume vanishes at its inner
+    nodes, so a displacement on its surface must be free.
     """
-    rule = tetrahedron_rule()
-    tangents = np.einsum("qad,eai->eqdi", rule.gradients, mesh.nodes[mesh.tets], optimize=True)
+    mesh = distribution.mesh
+    compliant = np.array([each.compliance > 0 for each in distribution.materials])
+    part = connected_parts(mesh.tet_vertices, len(mesh.vertices))[mesh.tet_vertices[:, 0]]
+    derivatives, regions = [], []
+    for number in np.unique(part[~compliant[distribution.of_tet]]):
+        derivative = _volume_derivative(mesh, part == number)
+        derivatives.append((derivative * ~fixed).ravel() / np.linalg.norm(derivative))
+        regions.append(int(mesh.region_of_tet[part == number][0]))
+    if not derivatives:
+        return
+    _, values, vectors = np.linalg.svd(np.stack(derivatives, axis=1), full_matrices=False)
+    if values[-1] <= NEGLIGIBLE * max(values[0], 1.0):
+        raise SolverError(_undetermined(mesh, regions[int(np.abs(vectors[-1]).argmax())]))
+
+
+def _undetermined(mesh: Mesh, region: int) -> str:
+    """The sentence on a region whose pressure the supports leave undetermined."""
+    name = mesh.region_names[region]
+    which = f"region {name!r}" if name else "body"
+    return (
+        f"supports: they prescribe the whole surface of an incompressible {which}, which leaves "
+        "its pressure undetermined; free some of it or give the material a bulk modulus."
+    )
+
+
+def _volume_derivative(mesh: Mesh, elements: NDArray[np.bool_]) -> Reals:
+    """Derivative (n, 3) of the volume of some elements by the positions of nodes, mm^2."""
+    rule, tets = tetrahedron_rule(), mesh.tets[elements]
+    tangents = np.einsum("qad,eai->eqdi", rule.gradients, mesh.nodes[tets], optimize=True)
     cofactors = np.stack(
         [np.cross(tangents[:, :, (d + 1) % 3], tangents[:, :, (d + 2) % 3]) for d in range(3)],
         axis=2,
     )
     weighted = rule.weights[:, None, None] * rule.gradients
     parts = np.einsum("qad,eqdi->eai", weighted, cofactors, optimize=True).reshape(-1, 3)
-    nodes, count = mesh.tets.ravel(), len(mesh.nodes)
-    derivative = np.stack([np.bincount(nodes, part, count) for part in parts.T], axis=1)
-    if (np.abs(derivative) * ~fixed).max() <= NEGLIGIBLE * np.abs(derivative).max():
-        raise SolverError(
-            "supports: they prescribe the whole surface of an incompressible body, which leaves "
-            "its pressure undetermined; free some of it or give the material a bulk modulus."
-        )
+    nodes, count = tets.ravel(), len(mesh.nodes)
+    return np.stack([np.bincount(nodes, part, count) for part in parts.T], axis=1)
 
 
 def free_motions(

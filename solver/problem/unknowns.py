@@ -49,20 +49,24 @@ class Numbering:
 
 
 def number_unknowns(mesh: Mesh, supports: Supports, moving_plane: str | None = None) -> Numbering:
-    """Number the free displacements, the pressures and the moving plane of a mesh."""
-    free = np.zeros((len(mesh.nodes), 4), bool)
+    """Number the free displacements, the pressures and the moving plane of a mesh.
+
+    The pressures of a node between regions follow each other.
+    """
+    rank = np.arange(len(mesh.vertices)) - np.searchsorted(mesh.vertices, mesh.vertices)
+    free = np.zeros((len(mesh.nodes), 4 + rank.max(initial=0)), bool)
     free[:, :3] = ~fixed_displacements(mesh, supports, moving_plane)
     if moving_plane is not None:
         free[mesh.surface_nodes(moving_plane), 0] = False
     free[np.setdiff1d(np.arange(len(mesh.nodes)), mesh.tets), :3] = False
-    free[mesh.vertices, 3] = True
+    free[mesh.vertices, 3 + rank] = True
     numbers = np.full(free.shape, -1, np.int32)
     numbers[free] = np.arange(free.sum(), dtype=np.int32)
     size = int(free.sum())
     plane = np.array([-1, -1] if moving_plane is None else [size, size + 1], np.int32)
     return Numbering(
         displacement=np.ascontiguousarray(numbers[:, :3]),
-        pressure=numbers[mesh.vertices, 3],
+        pressure=numbers[mesh.vertices, 3 + rank],
         plane=plane,
         size=size + int((plane >= 0).sum()),
     )

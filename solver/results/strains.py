@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from solver.arrays import Reals
 from solver.mesh.elements import tetrahedron_rule
@@ -36,9 +37,24 @@ def reached_logs(solution: Solution) -> Reals:
     Those are left out as for the highest stress (``trusted_nodes``): there the strain of an ideal
     body is unbounded. All count if none is left.
     """
+    everywhere = np.ones(len(solution.problem.mesh.tets), bool)
+    return _reached(solution, everywhere)
+
+
+def reached_logs_by_region(solution: Solution) -> dict[str, Reals]:
+    """The same of each region by its name, as ``peaks_by_region`` names them."""
+    mesh = solution.problem.mesh
+    return {
+        mesh.region_names[number]: _reached(solution, mesh.region_of_tet == number)
+        for number in np.unique(mesh.region_of_tet)
+    }
+
+
+def _reached(solution: Solution, elements: NDArray[np.bool_]) -> Reals:
+    """Rows (k, 3) of some of the elements (e,)."""
     logs = principal_logs(solution.problem.mesh, solution.displacement)
-    trusted = _trusted(solution.problem)
-    rows: Reals = (logs[trusted] if trusted.any() else logs).reshape(-1, 3)
+    trusted = elements & _trusted(solution.problem)
+    rows: Reals = (logs[trusted] if trusted.any() else logs[elements]).reshape(-1, 3)
     return rows
 
 

@@ -1,4 +1,8 @@
-"""Cauchy stress at the nodes, recovered from the quadrature points."""
+"""Cauchy stress at the nodes, recovered from the quadrature points.
+
+Stresses jump between regions of other stiffness, so that they are averaged over the elements of one
+region only: a node between regions has one value on each of its sides (``Mesh.sides``).
+"""
 
 from __future__ import annotations
 
@@ -13,6 +17,8 @@ from solver.assembly.state import State
 from solver.kernels.element import Solid
 from solver.kernels.stress import deviatoric_stress
 from solver.mesh.elements import TETRAHEDRON_EDGES, tetrahedron_rule
+from solver.mesh.mesh import Mesh
+from solver.mesh.regions import REST
 from solver.problem.problem import Problem
 from solver.results.sharp_edges import trusted_nodes
 from solver.results.solution import Solution, check_solution
@@ -29,12 +35,14 @@ class Peak:
         scatter: MPa, how far the elements around the node differ: the root mean square of the von
             Mises stress of their differences from the average. It vanishes under refinement, and
             is 0 at a node of a single element.
+        region: of the mesh that it is in; empty in the rest.
     """
 
     value: float
     node: int
     position: tuple[float, float, float]
     scatter: float
+    region: str = REST
 
 
 def nodal_von_mises(solution: Solution) -> Reals:
@@ -44,12 +52,14 @@ def nodal_von_mises(solution: Solution) -> Reals:
         solution: an equilibrium.
 
     Returns:
-        Of the stress averaged over the elements at each node, weighted by their volumes.
+        Of the stress averaged over the elements at each node, weighted by their volumes; at a node
+        between regions the largest of theirs.
 
         *Shape:* (n,) in MPa.
     """
     check_solution(solution)
-    return von_mises(deviatoric_at_nodes(solution.problem, solution.state.displacement))
+    stress = deviatoric_at_sides(solution.problem, solution.displacement)
+    return largest_at_nodes(solution.problem.mesh, von_mises(stress))
 
 
 def nodal_cauchy(solution: Solution) -> Reals:
@@ -59,14 +69,19 @@ def nodal_cauchy(solution: Solution) -> Reals:
         solution: an equilibrium.
 
     Returns:
-        Components in the order xx, yy, zz, xy, yz, zx.
+        Components in the order xx, yy, zz, xy, yz, zx; at a node between regions in that of the
+        largest von Mises stress.
 
         *Shape:* (n, 6) in MPa.
     """
     check_solution(solution)
-    stress = deviatoric_at_nodes(solution.problem, solution.state.displacement)
-    stress[:, :3] -= nodal_pressure(solution.problem, solution.state)[:, None]
-    return stress
+    mesh = solution.problem.mesh
+    stress = deviatoric_at_sides(solution.problem, solution.displacement)
+    shown = _shown_sides(mesh, von_mises(stress))
+    stress[:, :3] -= _pressure_at_sides(mesh, solution.hydrostatic_pressure)[:, None]
+    values = np.zeros((len(mesh.nodes), 6))
+    values[mesh.sides[shown]] = stress[shown]
+    return values
 
 
 def peak_von_mises(solution: Solution) -> Peak:
@@ -83,28 +98,54 @@ def peak_von_mises(solution: Solution) -> Peak:
     return peak_of(solution.problem, solution.displacement)
 
 
+def peaks_by_region(solution: Solution) -> dict[str, Peak]:
+    """Largest nodal von Mises stress of each region.
+
+    Args:
+        solution: an equilibrium. Nodes near sharp edges do not count, as for ``peak_von_mises``.
+
+    Returns:
+        Region -> the stress and where it is. The rest, which belongs to no region of the mesh, has
+        the empty name; it is missing where there is none.
+    """
+    check_solution(solution)
+    problem = solution.problem
+    mesh, stress = problem.mesh, stress_after(problem, solution.displacement)
+    counted = trusted_nodes(problem)[mesh.sides]
+    return {
+        mesh.region_names[number]: _peak(mesh, stress, counted & (mesh.region_of_side == number))
+        for number in np.unique(mesh.region_of_tet)
+    }
+
+
 def peak_of(
     problem: Problem, displacement: Reals, counted: NDArray[np.bool_] | None = None
 ) -> Peak:
     """The same after a displacement (n, 3), mm; ``counted`` (n,): the nodes that count."""
-    mesh, stress = problem.mesh, stress_after(problem, displacement)
     counted = trusted_nodes(problem) if counted is None else counted
+    return _peak(problem.mesh, stress_after(problem, displacement), counted[problem.mesh.sides])
+
+
+def _peak(mesh: Mesh, stress: ElementStress, counted: NDArray[np.bool_]) -> Peak:
+    """The largest one of the sides that are ``counted`` (s,)."""
     values = np.where(counted, von_mises(stress.nodal), 0.0)
-    node = int(values.argmax())
-    around = (mesh.tets == node).any(axis=1)
-    jumps = stress.raw[around] - stress.nodal[mesh.tets[around]]
-    differences = von_mises(jumps[mesh.tets[around] == node])
+    side = int(values.argmax())
+    around = (stress.tets == side).any(axis=1)
+    jumps = stress.raw[around] - stress.nodal[stress.tets[around]]
+    differences = von_mises(jumps[stress.tets[around] == side])
     scatter = float(np.sqrt((differences**2).mean()))
+    node = int(mesh.sides[side])
     x, y, z = (float(c) for c in mesh.nodes[node])
-    return Peak(float(values[node]), node, (x, y, z), scatter)
+    region = mesh.region_names[mesh.region_of_side[side]]
+    return Peak(float(values[side]), node, (x, y, z), scatter, region)
 
 
 @dataclass(frozen=True)
 class ElementStress:
     """Deviatoric Cauchy stress at the ten nodes of each element, MPa.
 
-    ``raw`` (e, 10, 6) of the element itself, ``nodal`` (n, 6) averages at the nodes of the mesh,
-    ``volumes`` (e,) of the elements, mm^3; ``tets`` (e, 10).
+    ``raw`` (e, 10, 6) of the element itself, ``nodal`` (s, 6) averages on the sides of the nodes of
+    the mesh, ``volumes`` (e,) of the elements, mm^3; ``tets`` (e, 10): sides of their nodes.
     """
 
     raw: Reals
@@ -132,9 +173,8 @@ def stress_after(problem: Problem, displacement: Reals) -> ElementStress:
     """The same after a displacement (n, 3), mm."""
     mesh = problem.mesh
     raw, volumes = in_elements(solid(problem), displacement)
-    return ElementStress(
-        raw, averaged(mesh.tets, raw, volumes, len(mesh.nodes)), volumes, mesh.tets
-    )
+    nodal = averaged(mesh.tet_sides, raw, volumes, len(mesh.sides))
+    return ElementStress(raw, nodal, volumes, mesh.tet_sides)
 
 
 def von_mises(stress: Reals) -> Reals:
@@ -144,24 +184,54 @@ def von_mises(stress: Reals) -> Reals:
 
 
 def nodal_pressure(problem: Problem, state: State) -> Reals:
-    """Hydrostatic pressure at all nodes (n,), MPa; linear along element edges."""
+    """Hydrostatic pressure at all nodes (n,), MPa; linear along element edges.
+
+    At a node between regions in that of the largest von Mises stress.
+    """
     mesh = problem.mesh
+    shown = np.arange(len(mesh.sides))
+    if mesh.regions:
+        stress = deviatoric_at_sides(problem, state.displacement)
+        shown = _shown_sides(mesh, von_mises(stress))
     values = np.zeros(len(mesh.nodes))
-    values[mesh.vertices] = state.hydrostatic_pressure
-    for middle, (a, b) in enumerate(TETRAHEDRON_EDGES, start=4):
-        ends = values[mesh.tets[:, a]] + values[mesh.tets[:, b]]
-        values[mesh.tets[:, middle]] = ends / 2
+    values[mesh.sides[shown]] = _pressure_at_sides(mesh, state.hydrostatic_pressure)[shown]
     return values
 
 
-def deviatoric_at_nodes(problem: Problem, displacement: Reals) -> Reals:
-    """Deviatoric Cauchy stress at the nodes, MPa: (n, 6).
+def _pressure_at_sides(mesh: Mesh, pressure: Reals) -> Reals:
+    """Hydrostatic pressure (s,) on all sides from that of the unknowns (v,), MPa."""
+    values = np.zeros(len(mesh.sides))
+    values[mesh.tet_sides[:, :4]] = pressure[mesh.tet_vertices]
+    for middle, (a, b) in enumerate(TETRAHEDRON_EDGES, start=4):
+        ends = values[mesh.tet_sides[:, a]] + values[mesh.tet_sides[:, b]]
+        values[mesh.tet_sides[:, middle]] = ends / 2
+    return values
+
+
+def largest_at_nodes(mesh: Mesh, values: Reals) -> Reals:
+    """The largest value (n,) of the sides (s,) of each node; 0 at nodes of no element."""
+    if not mesh.regions:
+        return values
+    largest = np.zeros(len(mesh.nodes))
+    np.maximum.at(largest, mesh.sides, values)
+    return largest
+
+
+def _shown_sides(mesh: Mesh, values: Reals) -> NDArray[np.int64]:
+    """The side with the largest value (s,) of each node that has sides."""
+    order = np.lexsort((values, mesh.sides))
+    last = np.append(np.diff(mesh.sides[order]) > 0, True)
+    return np.asarray(order[last])
+
+
+def deviatoric_at_sides(problem: Problem, displacement: Reals) -> Reals:
+    """Deviatoric Cauchy stress on the sides of the nodes, MPa: (s, 6).
 
     In each element the linear field through the four quadrature points, extrapolated to its ten
-    nodes; at each node the average over its elements, weighted by their volumes.
+    nodes; on each side the average over its elements, weighted by their volumes.
     """
     at_nodes, volumes = in_elements(solid(problem), displacement)
-    return averaged(problem.mesh.tets, at_nodes, volumes, len(problem.mesh.nodes))
+    return averaged(problem.mesh.tet_sides, at_nodes, volumes, len(problem.mesh.sides))
 
 
 def extrapolation() -> Reals:
@@ -189,7 +259,10 @@ def averaged(
     volumes: Reals,
     number_of_nodes: int,
 ) -> Reals:
-    """Averages (n, 6) of element values (e, 10, 6) weighted by element volumes (e,)."""
+    """Averages (n, 6) of element values (e, 10, 6) weighted by element volumes (e,).
+
+    ``tets`` (e, 10) number the nodes, or sides, that they are of.
+    """
     nodes, weights = tets.ravel(), np.repeat(volumes, tets.shape[1])
     total = np.bincount(nodes, weights, number_of_nodes)
     sums = [np.bincount(nodes, weights * values[..., c].ravel(), number_of_nodes) for c in range(6)]

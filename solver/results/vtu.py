@@ -14,7 +14,9 @@ def write_vtu(path: Path | str, solution: Solution) -> None:
     """Write a file for ParaView.
 
     It holds the undeformed mesh with displacement (mm), von Mises stress and hydrostatic pressure
-    (MPa) at the nodes.
+    (MPa) at the nodes, and in the cells the numbers of their regions: 0 for the rest, then in the
+    order of ``Mesh.regions``. A node between regions has the values of the one in which its von
+    Mises stress is largest.
 
     Args:
         path: of the file, ending in ``.vtu``; it is overwritten.
@@ -38,4 +40,5 @@ def write_vtu(path: Path | str, solution: Solution) -> None:
         "von_mises_mpa": nodal_von_mises(solution),
         "hydrostatic_pressure_mpa": nodal_pressure(solution.problem, solution.state),
     }
-    meshio.Mesh(mesh.nodes, [("tetra10", cells)], point_data=fields).write(place)
+    regions = {"region": [mesh.region_of_tet]} if mesh.regions else {}
+    meshio.Mesh(mesh.nodes, [("tetra10", cells)], fields, regions).write(place)

@@ -21,7 +21,6 @@ from numpy.typing import NDArray
 from solver.arrays import Reals
 from solver.errors import SolverError
 from solver.input_types import check_number, members_of
-from solver.mesh.mesh import Mesh
 from solver.problem.problem import Problem
 from solver.problem.supports import prescribed_motion
 from solver.results.sharp_edges import trusted_nodes
@@ -232,9 +231,7 @@ def _given_rate(problem: Problem, load: float, velocity: Reals) -> Reals:
     if not problem.supports.prescribed or largest == 0:
         return rate
     step = STEP * mesh.size / largest
-    ahead, behind = (
-        Mesh(mesh.nodes + s * step * velocity, mesh.tets, mesh.surfaces) for s in (1, -1)
-    )
+    ahead, behind = (mesh.moved(mesh.nodes + s * step * velocity) for s in (1, -1))
     for surface in problem.supports.prescribed:
         there, back = (
             prescribed_motion(each, problem.supports, surface, load) for each in (ahead, behind)

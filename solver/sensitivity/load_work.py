@@ -11,9 +11,11 @@ import numpy as np
 from solver.arrays import Reals
 from solver.assembly.section import Section
 from solver.assembly.state import State
+from solver.mesh import edges
+from solver.mesh.edges import common_edge
 from solver.mesh.elements import tetrahedron_rule
 from solver.mesh.mesh import Mesh
-from solver.problem.loads import BodyForce, Field, Traction, plane_loads
+from solver.problem.loads import BodyForce, EdgeForce, Field, Traction, plane_loads
 from solver.problem.problem import Problem
 from solver.problem.springs import FoundationSpring
 from solver.sensitivity.surface_integrals import (
@@ -37,6 +39,8 @@ def load_derivative(problem: Problem, along: Reals) -> Reals:
             total += _of_traction(problem.mesh, load, along)
         elif isinstance(load, BodyForce):
             total += _of_body_force(problem.mesh, load, along)
+        elif isinstance(load, EdgeForce):
+            total += _of_edge_force(problem.mesh, load, along)
     return total
 
 
@@ -95,6 +99,18 @@ def _of_body_force(mesh: Mesh, load: BodyForce, along: Reals) -> Reals:
     parts = np.einsum("eq,eqai->eai", density, gradients)
     parts += np.einsum("qa,eqi->eai", rule.quadratic, changes)
     return summed(len(mesh.nodes), tets, parts)
+
+
+def _of_edge_force(mesh: Mesh, load: EdgeForce, along: Reals) -> Reals:
+    """A mean of the work along the edge: it changes as that of ``section_derivative``."""
+    lines = common_edge(mesh, *load.surfaces)
+    work, sizes = edges.along(along, lines) @ np.array(load.force), edges.lengths(mesh.nodes, lines)
+    length = sizes.sum()
+    excess = (work - (sizes * work).sum() / length) / length
+    tangents = edges.tangents(mesh.nodes, lines)
+    pulls = tangents / np.linalg.norm(tangents, axis=2, keepdims=True)
+    parts = np.einsum("kq,q,qa,kqi->kai", excess, edges.WEIGHTS, edges.SLOPES, pulls)
+    return summed(len(mesh.nodes), lines, parts)
 
 
 def _values(field: Field, places: Reals) -> Reals:

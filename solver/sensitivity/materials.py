@@ -9,11 +9,12 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from solver.arrays import Reals
-from solver.assembly.assembly import solid
+from solver.assembly.assembly import solid, with_materials
+from solver.assembly.pairs.pair import ContactPair
 from solver.errors import SolverError
 from solver.input_types import shown
-from solver.kernels.element import Solid
 from solver.material.law import Hyperelastic
+from solver.problem.contacts import surfaces_of
 from solver.sensitivity.adjoint import inner
 from solver.sensitivity.contact_work import contact_work
 from solver.sensitivity.gradients import Gradients
@@ -54,80 +55,110 @@ def constant_changes(material: Hyperelastic) -> dict[str, MaterialChange]:
 
 
 def material_derivatives(
-    found: Gradients, changes: Mapping[str, MaterialChange]
+    found: Gradients, changes: Mapping[str, MaterialChange], region: str | None = None
 ) -> dict[str, dict[str, float]]:
-    """Derivatives of all responses by changes of the material.
+    """Derivatives of all responses by changes of a material.
 
     Args:
         found: gradients at an equilibrium.
-        changes: parameter -> (material ahead, material behind, step between them), the problem's
+        changes: parameter -> (material ahead, material behind, step between them), the changed
             material in the middle, or one of the two if the stress is linear in the parameter.
+        region: whose material changes, a key of the problem's ``materials``; None for its
+            ``material``, that of all other elements.
 
     Returns:
         response -> parameter -> derivative.
 
     Raises:
-        SolverError: anything but two materials and a step other than zero.
+        SolverError: anything but two materials and a step other than zero, or a region that has no
+            material of its own.
     """
     if not changes:
         return {response: {} for response in found.responses}
+    number = _number_of(found, region)
     checked = {name: _checked(name, each) for name, each in changes.items()}
-    residuals = _residuals(found, checked)
-    columns = {name: _by_material(found, residuals, *each) for name, each in checked.items()}
+    residuals = _residuals(found, checked, number)
+    columns = {
+        name: _by_material(found, residuals, number, *each) for name, each in checked.items()
+    }
     return {
         response: {name: column[response] for name, column in columns.items()}
         for response in found.responses
     }
 
 
+def _number_of(found: Gradients, region: str | None) -> int:
+    """Number of the material of a region; ``SolverError`` where it has none of its own."""
+    others = found.solution.problem.materials
+    if region is None:
+        return 0
+    if region not in others:
+        known = ", ".join(map(repr, others)) or "none"
+        raise SolverError(
+            f"sensitivities: region must be one with a material of its own ({known}) or None, got "
+            f"{shown(region)}."
+        )
+    return 1 + list(others).index(region)
+
+
 def _residuals(
-    found: Gradients, changes: Mapping[str, MaterialChange]
+    found: Gradients, changes: Mapping[str, MaterialChange], number: int
 ) -> dict[int, tuple[Reals, Reals]]:
     """Forces and constraint violations with each material of the changes, once, by its id."""
     residual, body = SolidResidual.of(found.at), solid(found.solution.problem)
     materials = {id(each): each for *pair, _ in changes.values() for each in pair}
-    return {number: residual(_with_law(body, each)) for number, each in materials.items()}
+    distribution = found.solution.problem.distribution
+    return {
+        key: residual(with_materials(body, distribution.changed(number, each)))
+        for key, each in materials.items()
+    }
 
 
 def _by_material(
     found: Gradients,
     residuals: Mapping[int, tuple[Reals, Reals]],
+    number: int,
     ahead: Hyperelastic,
     behind: Hyperelastic,
     step: float,
 ) -> dict[str, float]:
     """Response -> derivative: the work of a difference of forces, and the stress's own change."""
-    at, problem = found.at, found.solution.problem
     (there, stretched), (back, compressed) = residuals[id(ahead)], residuals[id(behind)]
     forces, violations = there - back, stretched - compressed
-    stiffer = (ahead.shear_modulus - behind.shear_modulus) / problem.material.shear_modulus
+    stiffened = _stiffened_contacts(found, number, ahead, behind)
+    own = _own_change(found, number, ahead, behind) if PEAK in found.responses else 0.0
     derivatives = {}
     for name, each in found.responses.items():
         adjoint = each.adjoint
         work = inner(forces, adjoint.displacement)
         work += inner(violations, adjoint.hydrostatic_pressure)
-        for pair in at.touching:  # whose stiffness is in proportion to the material's
-            work += stiffer * contact_work(pair, at.state, at.load, adjoint)
-        own = _own_change(found, ahead, behind) if name == PEAK else 0.0
-        derivatives[name] = (own - work) / step
+        for pair, share in stiffened:
+            work += share * contact_work(pair, found.at.state, found.at.load, adjoint)
+        derivatives[name] = ((own if name == PEAK else 0.0) - work) / step
     return derivatives
 
 
-def _own_change(found: Gradients, ahead: Hyperelastic, behind: Hyperelastic) -> float:
+def _stiffened_contacts(
+    found: Gradients, number: int, ahead: Hyperelastic, behind: Hyperelastic
+) -> list[tuple[ContactPair, float]]:
+    """Touching contacts and by which share their stiffness, that of the softest material, grows."""
+    distribution = found.solution.problem.distribution
+    modulus = distribution.materials[number].shear_modulus
+    share = (ahead.shear_modulus - behind.shear_modulus) / modulus
+    return [
+        (pair, share)
+        for pair in found.at.touching
+        if distribution.softest_at(*surfaces_of(pair.contact)) == number
+    ]
+
+
+def _own_change(found: Gradients, number: int, ahead: Hyperelastic, behind: Hyperelastic) -> float:
     """Difference of the smooth peak at the same displacements, MPa."""
-    region = found.region
-    there, back = _with_law(region.body, ahead), _with_law(region.body, behind)
-    return region.change(there, back, found.solution.displacement)
-
-
-def _with_law(body: Solid, material: Hyperelastic) -> Solid:
-    constants = material.constants
-    return body._replace(
-        law=constants.number,
-        constants=constants.values,
-        compliance=material.compliance,
-        logarithmic=material.volumetric == "logarithmic",
+    region, distribution = found.region, found.solution.problem.distribution
+    there, back = (
+        with_materials(region.body, distribution.changed(number, each)) for each in (ahead, behind)
     )
+    return region.change(there, back, found.solution.displacement)
 
 
 def _change(material: Hyperelastic, name: str, place: int | None) -> MaterialChange:

@@ -56,6 +56,7 @@ def sensitivities(
     responses: Sequence[str] = (),
     sharpness: float = SHARPNESS,
     counted: NDArray[np.bool_] | None = None,
+    region: str | None = None,
 ) -> Sensitivities:
     """Derivatives of responses by geometry, material and pressure, by the adjoint method.
 
@@ -71,6 +72,7 @@ def sensitivities(
         responses: names; by default all that the problem has.
         sharpness: p of the smooth maximum.
         counted: nodes whose stress counts.
+        region: whose material ``materials`` changes, as for ``material_derivatives``.
 
     Returns:
         The derivatives.
@@ -82,7 +84,7 @@ def sensitivities(
     _check_names(velocities, materials)
     found = gradients(solution, workspace, responses, sharpness, counted)
     columns = {name: found.along(velocity) for name, velocity in velocities.items()}
-    of_materials = material_derivatives(found, materials)
+    of_materials = material_derivatives(found, materials, region)
     table = {
         response: {name: column[response] for name, column in columns.items()}
         | of_materials[response]

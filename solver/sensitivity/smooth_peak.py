@@ -7,7 +7,8 @@ that count,
 
 has: it is homogeneous in the stress, never below the peak, and above it by at most the factor
 N^(1/p) of N nodes with one value; by how much is stated with the value. Derivatives go to the
-elements at nodes with a weight in them only.
+elements at nodes with a weight in them only. A node between regions counts with the stress on each
+of its sides (``Mesh.sides``).
 """
 
 from __future__ import annotations
@@ -24,7 +25,7 @@ from solver.kernels.shape_derivatives import stress_derivatives
 from solver.problem.problem import Problem
 from solver.results.stress import (
     averaged,
-    deviatoric_at_nodes,
+    deviatoric_at_sides,
     extrapolation,
     in_elements,
     von_mises,
@@ -46,7 +47,7 @@ class SmoothPeak:
         value: (sum v^p)^(1/p), MPa.
         sharpness: p.
         peak: the largest nodal value itself, MPa, over the same nodes.
-        nodes: how many nodes have a part in it.
+        nodes: how many nodes have a part in it, those between regions once for each.
     """
 
     value: float
@@ -62,9 +63,13 @@ class SmoothPeak:
 
 @dataclass(frozen=True)
 class PeakRegion:
-    """What a smooth peak depends on: nodes (k,), and the elements around them as a ``body``."""
+    """What a smooth peak depends on: sides of nodes (k,), and the elements there as a ``body``.
 
-    nodes: Integers
+    ``tet_sides`` (e, 10): the sides of the nodes of these elements.
+    """
+
+    sides: Integers
+    tet_sides: Integers
     body: Solid
     sharpness: float
 
@@ -73,14 +78,19 @@ class PeakRegion:
         problem: Problem, displacement: Reals, counted: NDArray[np.bool_], sharpness: float
     ) -> PeakRegion:
         """The region of the nodes with a weight among those ``counted`` (n,)."""
-        values = von_mises(deviatoric_at_nodes(problem, displacement))
-        values = np.where(counted, values, 0.0)
+        mesh, whole = problem.mesh, solid(problem)
+        values = von_mises(deviatoric_at_sides(problem, displacement))
+        values = np.where(counted[mesh.sides], values, 0.0)
         _, weights = _norm(values, sharpness)
         active = weights > LEAST_WEIGHT
-        whole = solid(problem)
-        around = active[whole.tets].any(axis=1)
-        body = whole._replace(tets=whole.tets[around], tet_vertices=whole.tet_vertices[around])
-        return PeakRegion(np.flatnonzero(active).astype(np.int32), body, sharpness)
+        around = active[mesh.tet_sides].any(axis=1)
+        body = whole._replace(
+            tets=whole.tets[around],
+            tet_vertices=whole.tet_vertices[around],
+            material_of=whole.material_of[around],
+        )
+        sides = np.flatnonzero(active).astype(np.int32)
+        return PeakRegion(sides, mesh.tet_sides[around], body, sharpness)
 
     def value(self, body: Solid, displacement: Reals) -> float:
         """The smooth peak, MPa, with another material or other positions in ``body``."""
@@ -97,20 +107,21 @@ class PeakRegion:
         """Value and peak."""
         values = von_mises(self._stress(self.body, displacement)[0])
         value, _ = _norm(values, self.sharpness)
-        return SmoothPeak(value, self.sharpness, float(values.max(initial=0.0)), len(self.nodes))
+        return SmoothPeak(value, self.sharpness, float(values.max(initial=0.0)), len(self.sides))
 
     def derivatives(self, displacement: Reals) -> tuple[Reals, Reals]:
         """Derivatives (n, 3) of the smooth peak by positions and by displacements, MPa/mm."""
-        tets, size = self.body.tets, len(displacement)
+        tets, sides = self.body.tets, self.tet_sides
+        size, number = len(displacement), int(sides.max(initial=0)) + 1
         stress, raw, volumes = self._stress(self.body, displacement)
-        shares = np.zeros((size, 6))
-        shares[self.nodes] = self._weights(stress)
-        total = np.bincount(tets.ravel(), np.repeat(volumes, 10), size)
+        shares = np.zeros((number, 6))
+        shares[self.sides] = self._weights(stress)
+        total = np.bincount(sides.ravel(), np.repeat(volumes, 10), number)
         shares /= np.where(total > 0, total, 1.0)[:, None]
-        average = np.zeros((size, 6))
-        average[self.nodes] = stress
-        by_volume = ((raw - average[tets]) * shares[tets]).sum(axis=(1, 2))
-        by_raw = volumes[:, None, None] * shares[tets]
+        average = np.zeros((number, 6))
+        average[self.sides] = stress
+        by_volume = ((raw - average[sides]) * shares[sides]).sum(axis=(1, 2))
+        by_raw = volumes[:, None, None] * shares[sides]
         by_stress = extrapolation().T @ by_raw
         parts = np.empty((2, *tets.shape, 3))
         stress_derivatives(
@@ -119,9 +130,10 @@ class PeakRegion:
         return summed(size, tets, parts[0]), summed(size, tets, parts[1])
 
     def _stress(self, body: Solid, displacement: Reals) -> tuple[Reals, Reals, Reals]:
-        """Stress at the nodes (k, 6) and in the elements (e, 10, 6), and their volumes (e,)."""
+        """Stress on the sides (k, 6) and in the elements (e, 10, 6), and their volumes (e,)."""
         raw, volumes = in_elements(body, displacement)
-        return averaged(body.tets, raw, volumes, len(displacement))[self.nodes], raw, volumes
+        number = int(self.tet_sides.max(initial=0)) + 1
+        return averaged(self.tet_sides, raw, volumes, number)[self.sides], raw, volumes
 
     def _weights(self, stress: Reals) -> Reals:
         """Derivatives (k, 6) of the smooth peak by the stress at the nodes (k, 6)."""

@@ -35,7 +35,7 @@ def responses(solution: Solution, found: Gradients) -> dict[str, float]:
     """Of a solution, whole turns aside; the smooth peak over the same nodes as in ``found``."""
     problem, sharpness = solution.problem, found.region.sharpness
     counted = np.zeros(len(problem.mesh.nodes), bool)
-    counted[found.region.nodes] = True
+    counted[problem.mesh.sides[found.region.sides]] = True
     region = PeakRegion.of(problem, solution.displacement, counted, sharpness)
     before = found.solution.rotation
     values = {

@@ -10,7 +10,8 @@ import signal
 import subprocess
 import sys
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from zipfile import BadZipFile
 
@@ -19,7 +20,7 @@ import numpy as np
 from printers.errors import PrintersError, shortened
 from printers.reading.limits import STEP_MEMORY, STEP_SECONDS
 from printers.reading.part import ReadPart, require_few
-from printers.reading.step_files.worker import MESH, PART, SENTENCE
+from printers.reading.step_files.worker import MESH, PART, SENTENCE, SHAPE
 
 _TAIL = 4096  # bytes in which a whole file says that it ends
 
@@ -36,18 +37,35 @@ def read_step(content: bytes, seconds: float = STEP_SECONDS, memory: int = STEP_
         PrintersError: The file is cut short, holds no surface, or could not be read in time, within
             the memory, or without a crash.
     """
+    with _read(content, MESH, seconds, memory) as file:
+        return _mesh(file)
+
+
+def brep_of_step(content: bytes, seconds: float = STEP_SECONDS, memory: int = STEP_MEMORY) -> bytes:
+    """The shape in a STEP file as the CAD kernel writes it (BREP), in mm.
+
+    Args and errors as of `read_step`.
+    """
+    with _read(content, SHAPE, seconds, memory) as file:
+        return file.read_bytes()
+
+
+@contextmanager
+def _read(content: bytes, wanted: str, seconds: float, memory: int) -> Iterator[Path]:
+    """The file of that name that the process leaves of a STEP file."""
     if b"END-ISO-10303-21" not in content[-_TAIL:]:
         raise PrintersError("it is cut short: it does not end with END-ISO-10303-21")
     with tempfile.TemporaryDirectory(prefix="printers-step-") as name:
         folder = Path(name)
         (folder / PART).write_bytes(content)
-        how = _worked(folder, seconds, memory)
-        return _result(folder, how)
+        how = _worked(folder, wanted, seconds, memory)
+        _require(folder, wanted, how)
+        yield folder / wanted
 
 
-def _worked(folder: Path, seconds: float, memory: int) -> str:
+def _worked(folder: Path, wanted: str, seconds: float, memory: int) -> str:
     """Run the process; how it ended, empty if well."""
-    process = _started(folder, memory)
+    process = _started(folder, wanted, memory)
     try:
         status = process.wait(seconds)
     except subprocess.TimeoutExpired:
@@ -60,11 +78,11 @@ def _worked(folder: Path, seconds: float, memory: int) -> str:
     return f"it ended with status {status}" if status else ""
 
 
-def _started(folder: Path, memory: int) -> subprocess.Popen[bytes]:
+def _started(folder: Path, wanted: str, memory: int) -> subprocess.Popen[bytes]:
     # -P: nothing from the current folder, which may hold a file of any name
     program = [sys.executable, "-P", "-m", "printers.reading.step_files.worker"]
     return subprocess.Popen(
-        [*program, str(folder), str(memory)],
+        [*program, str(folder), str(memory), wanted],
         stdin=subprocess.DEVNULL,
         stdout=subprocess.DEVNULL,  # the kernel talks
         stderr=subprocess.DEVNULL,
@@ -88,14 +106,18 @@ def _sentence(folder: Path) -> str:
         return ""
 
 
-def _result(folder: Path, how: str) -> ReadPart:
+def _require(folder: Path, wanted: str, how: str) -> None:
+    """Raise what the process says, or how it ended, unless it left what was wanted."""
     sentence = _sentence(folder)
     if sentence:
         raise PrintersError(sentence)
-    if how or not (folder / MESH).is_file():
+    if how or not (folder / wanted).is_file():
         raise PrintersError(f"the CAD kernel could not read it: {how or 'it left no mesh'}")
+
+
+def _mesh(file: Path) -> ReadPart:
     try:
-        with np.load(folder / MESH, allow_pickle=False) as found:
+        with np.load(file, allow_pickle=False) as found:
             require_few(len(found["triangles"]))
             texts = [str(text) for text in found["texts"]]
             return ReadPart(

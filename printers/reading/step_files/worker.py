@@ -1,7 +1,7 @@
-"""The process that reads a STEP file, with a folder and a number of bytes as its arguments.
+"""The process that reads a STEP file: its arguments are a folder, a number of bytes, what to leave.
 
-It reads `PART` in the folder and leaves `MESH`, or one sentence in `SENTENCE`. Whatever else
-becomes of it is its caller's to notice.
+It reads `PART` in the folder and leaves `MESH` or `SHAPE`, as the last argument says, or one
+sentence in `SENTENCE`. Whatever else becomes of it is its caller's to notice.
 """
 
 from __future__ import annotations
@@ -9,19 +9,23 @@ from __future__ import annotations
 import sys
 from contextlib import suppress
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from printers.reading.limits import STEP_SECONDS
 
-PART, MESH, SENTENCE = "part.step", "mesh.npz", "sentence.txt"
+if TYPE_CHECKING:
+    from printers.reading.step_files.cad_shape import CadShape
+
+PART, MESH, SHAPE, SENTENCE = "part.step", "mesh.npz", "shape.brep", "sentence.txt"
 
 
-def main(folder: Path, memory: int) -> None:
-    """Read the part in `folder` with at most `memory` bytes of address space."""
+def main(folder: Path, memory: int, wanted: str) -> None:
+    """Read the part in `folder` with at most `memory` bytes of address space; leave `wanted`."""
     from printers.errors import PrintersError
 
     _limit(memory)
     try:
-        _read(folder)
+        _read(folder, wanted)
     except PrintersError as error:
         sentence = str(error)
     except MemoryError:
@@ -33,13 +37,23 @@ def main(folder: Path, memory: int) -> None:
     (folder / SENTENCE).write_text(" ".join(sentence.split()), "utf-8")
 
 
-def _read(folder: Path) -> None:
-    import numpy as np
-
-    from printers.reading.step_files.cad_mesh import mesh_of
+def _read(folder: Path, wanted: str) -> None:
     from printers.reading.step_files.cad_shape import shape_in
 
     found = shape_in(folder / PART)
+    if wanted == SHAPE:
+        from OCP.BRepTools import BRepTools
+
+        BRepTools.Write_s(found.shape, str(folder / SHAPE))
+    else:
+        _leave_mesh(folder, found)
+
+
+def _leave_mesh(folder: Path, found: CadShape) -> None:
+    import numpy as np
+
+    from printers.reading.step_files.cad_mesh import mesh_of
+
     vertices, triangles, notes = mesh_of(found.shape)
     texts = np.array([found.units, *found.notes, *notes])
     np.savez(folder / MESH, vertices=vertices, triangles=triangles, texts=texts)
@@ -66,4 +80,4 @@ def _limit(memory: int) -> None:
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]), int(sys.argv[2]))
+    main(Path(sys.argv[1]), int(sys.argv[2]), sys.argv[3])

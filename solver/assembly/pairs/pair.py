@@ -17,7 +17,7 @@ from solver.kernels.contact import ENERGY, PRESSURE, Face, contact_values
 from solver.linear.sparsity import Pattern
 from solver.mesh.elements import triangle_rule
 from solver.mesh.mesh import Mesh
-from solver.problem.contacts import AnyContact
+from solver.problem.contacts import AnyContact, surfaces_of
 from solver.problem.problem import Problem
 
 SMOOTHING = 0.1
@@ -126,13 +126,15 @@ class ContactPair(ABC):
 def face_of(problem: Problem, contact: AnyContact, dofs: Integers) -> Face:
     """Triangles of a contact's surface with their quadrature and numbers of unknowns."""
     mesh, triangles = problem.mesh, problem.mesh.triangles(contact.surface)
+    distribution = problem.distribution
+    softest = distribution.materials[distribution.softest_at(*surfaces_of(contact))]
     return Face(
         nodes=mesh.nodes,
         triangles=triangles,
         shapes=triangle_rule().quadratic,
         areas=_areas(mesh, triangles),
         dofs=np.ascontiguousarray(dofs),
-        stiffness=problem.material.shear_modulus / contact.penetration,
+        stiffness=softest.shear_modulus / contact.penetration,
         smoothing=SMOOTHING * contact.penetration,
     )
 

@@ -15,7 +15,8 @@ from solver.problem.problem import Problem
 from solver.problem.supports import given_displacements
 
 FIXED_VOLUME = 1e-9
-"""A volume that changes by less than this fraction at a pressure of the shear modulus is fixed."""
+"""A volume that changes by less than this fraction at a pressure of the shear modulus, the largest
+one of several materials, is fixed."""
 
 SAME = 1e-12
 """Relative differences of volumes below this one are rounding."""
@@ -104,7 +105,7 @@ def check_changeable(newton: Newton, held: HeldVolume) -> None:
     """Raise ``SolverError`` if no pressure changes the volume at the start."""
     if held.failure:
         raise SolverError(f"inflate: at no pressure {held.failure}.")
-    stiffness = newton.problem.material.shear_modulus
+    stiffness = newton.problem.distribution.moduli.max()
     if not abs(held.compliance) * stiffness > FIXED_VOLUME * newton.problem.mesh.size**3:
         raise SolverError(
             f"inflate: the {abs(held.volume):.6g} mm³ inside the pressurised surfaces cannot "

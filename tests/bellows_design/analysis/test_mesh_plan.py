@@ -9,7 +9,14 @@ import numpy as np
 import pytest
 
 from bellows_design.analysis.mesh_plan import finer_plan, first_plan
-from bellows_design.analysis.models import FULL, HALF, UNIT_CELL, AnalysisModel, slender_axis
+from bellows_design.analysis.models import (
+    FULL,
+    HALF,
+    UNIT_CELL,
+    AnalysisModel,
+    slender_axis,
+    thinnest_wall,
+)
 from bellows_design.design.bellows_parameters import BellowsParameters
 from bellows_design.design.design import Design
 from bellows_design.design.indent import Indent
@@ -42,7 +49,9 @@ def meshes(model: AnalysisModel) -> tuple[Mesh, Mesh]:
     """The first mesh and the next, made from its solution under a tenth of the pressure."""
     coarse = first_plan(solid_of(model), DESIGN).made()
     solution = solve(model.problem(DESIGN, coarse), 0.01, SolverOptions(tolerance=1e-3))
-    return coarse, finer_plan(solid_of(model), DESIGN, solution, model.refinement).made()
+    return coarse, finer_plan(
+        solid_of(model), thinnest_wall(DESIGN), solution, model.refinement
+    ).made()
 
 
 def area_vectors(mesh: Mesh, *names: str) -> tuple[np.ndarray, np.ndarray]:
@@ -95,7 +104,7 @@ def test_the_sizes_of_both_meshes_are_known_before(model: AnalysisModel) -> None
     solution = solve(model.problem(DESIGN, coarse), 0.01, SolverOptions(tolerance=1e-3))
     plans = (
         first_plan(solid_of(model), DESIGN),
-        finer_plan(solid_of(model), DESIGN, solution, model.refinement),
+        finer_plan(solid_of(model), thinnest_wall(DESIGN), solution, model.refinement),
     )
     for plan, mesh in zip(plans, (coarse, fine), strict=True):
         assert 1 / 1.3 < plan.elements / len(mesh.tets) < 1.3

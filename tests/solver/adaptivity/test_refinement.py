@@ -69,7 +69,7 @@ def test_sizes_shrink_where_the_stress_jumps_are_largest(notched: Solution) -> N
 def test_growth_predicted_is_the_growth_asked_for(notched: Solution, growth: float) -> None:
     """An element of half the size makes room for eight; the nodes' averages smooth that a bit."""
     mesh = notched.problem.mesh
-    in_elements = _energy_ratios(mesh, element_stress(notched), growth)
+    in_elements = _energy_ratios(notched.problem, element_stress(notched), growth)
     assert (in_elements**-3.0).sum() == pytest.approx(growth * len(mesh.tets), rel=1e-3)
     sizes = refined_sizes(notched, Refinement(growth, NO_PEAK))
     smoothed = np.exp(np.log(sizes[mesh.tets[:, :4]]).mean(axis=1)) / mean_edges(mesh)
@@ -79,7 +79,7 @@ def test_growth_predicted_is_the_growth_asked_for(notched: Solution, growth: flo
 def test_errors_would_be_alike_in_all_elements(notched: Solution) -> None:
     """As far as the bounds of a size let them: error times ratio to the power 7/2."""
     stress = element_stress(notched)
-    in_elements = _energy_ratios(notched.problem.mesh, stress, 3.0)
+    in_elements = _energy_ratios(notched.problem, stress, 3.0)
     error = np.sqrt((von_mises(stress.jumps) ** 2).mean(axis=1) * stress.volumes)
     free = (in_elements > FINEST * 1.001) & (in_elements < COARSEST * 0.999)
     target = error[free] * in_elements[free] ** 3.5

@@ -38,7 +38,7 @@ def test_assembled_tangent_and_residual_equal_the_sum_over_elements(
     for tet, corners, places in zip(mesh.tets, mesh.tet_vertices, dofs, strict=True):
         q = state.hydrostatic_pressure[corners]
         body, x, u = solid(problem), mesh.nodes[tet], state.displacement[tet]
-        element_response(body, x, u, q, np.empty((0, 6)), True, r, upper)
+        element_response(body, 0, x, u, q, np.empty((0, 6)), True, r, upper)
         whole = np.triu(upper) + np.triu(upper, 1).T
         dense[np.ix_(places, places)] += whole
         residual[places] += r

@@ -62,7 +62,7 @@ def state(gradient: NDArray[np.float64], nodes: NDArray[np.float64], bend: float
 def response(body: Solid, nodes: NDArray, v: NDArray) -> tuple[NDArray, NDArray]:
     """Residual (34,) and whole tangent (34, 34) at unknowns v (34,)."""
     r, upper = np.empty(34), np.empty((34, 34))
-    assert element_response(body, nodes, v[:30].reshape(10, 3), v[30:], OWN, True, r, upper) > 0
+    assert element_response(body, 0, nodes, v[:30].reshape(10, 3), v[30:], OWN, True, r, upper) > 0
     return r, np.triu(upper) + np.triu(upper, 1).T
 
 
@@ -94,7 +94,7 @@ def test_residual_is_the_gradient_of_the_energy(material: Ogden, gradient: NDArr
     residual, _ = response(body, nodes, v)
 
     def energy(v: NDArray) -> float:
-        return element_energy(body, nodes, v[:30].reshape(10, 3), v[30:])[0]
+        return element_energy(body, 0, nodes, v[:30].reshape(10, 3), v[30:])[0]
 
     steps = 1e-3 * np.eye(34)
     slopes = [
@@ -114,7 +114,7 @@ def test_energy_and_forces_turn_with_the_frame(gradient: NDArray) -> None:
     forces = before[:30].reshape(10, 3) @ ROTATION.T
     assert after[:30].reshape(10, 3) == pytest.approx(forces, abs=1e-13)
     assert after[30:] == pytest.approx(before[30:], abs=1e-14)
-    energies = [element_energy(body, nodes, w, q)[0] for w in (u, turned)]
+    energies = [element_energy(body, 0, nodes, w, q)[0] for w in (u, turned)]
     assert energies[0] == pytest.approx(energies[1], rel=1e-13)
 
 
@@ -132,7 +132,7 @@ def test_small_strains_keep_their_digits() -> None:
     strain = np.array([[1.0, 0.3, 0.0], [0.3, -0.2, 0.1], [0.0, 0.1, -0.8]])
     energies = []
     for size in (1e-3, 1e-6, 1e-9):
-        energy, volume = element_energy(body, nodes, size * nodes @ strain, np.zeros(4))
+        energy, volume = element_energy(body, 0, nodes, size * nodes @ strain, np.zeros(4))
         energies.append(energy / (volume * 3.47605 * size**2 * (strain**2).sum()))
     assert energies == pytest.approx([1.0, 1.0, 1.0], rel=2e-3)
     assert energies[1:] == pytest.approx([1.0, 1.0], rel=3e-6)
@@ -156,8 +156,8 @@ def test_an_element_turned_inside_out_is_reported() -> None:
     body, nodes = element(MATERIALS["incompressible"])
     u = nodes @ (np.diag([1.0, 1.0, -1.0]) - np.eye(3))
     r, tangent = np.empty(34), np.empty((34, 34))
-    assert element_response(body, nodes, u, np.zeros(4), OWN, True, r, tangent) < 0
-    assert np.isnan(element_energy(body, nodes, u, np.zeros(4))[0])
+    assert element_response(body, 0, nodes, u, np.zeros(4), OWN, True, r, tangent) < 0
+    assert np.isnan(element_energy(body, 0, nodes, u, np.zeros(4))[0])
 
 
 PLAIN_PYTHON = """
@@ -169,7 +169,7 @@ assert config.DISABLE_JIT
 data = np.load(sys.argv[1])
 body = Solid(*(data[f"solid_{i}"] for i in range(len(Solid._fields))))
 r, k = np.empty(34), np.empty((34, 34))
-element_response(body, data["nodes"], data["u"], data["q"], np.empty((0, 6)), True, r, k)
+element_response(body, 0, data["nodes"], data["u"], data["q"], np.empty((0, 6)), True, r, k)
 np.savez(sys.argv[2], r=r, k=k)
 """
 
@@ -188,6 +188,6 @@ def test_compiled_kernels_equal_plain_python(tmp_path: Path) -> None:
     )
     plain = np.load(tmp_path / "out.npz")
     r, tangent = np.empty(34), np.empty((34, 34))
-    element_response(body, nodes, u, q, OWN, True, r, tangent)
+    element_response(body, 0, nodes, u, q, OWN, True, r, tangent)
     assert plain["r"] == pytest.approx(r, rel=1e-12, abs=1e-15)
     assert np.triu(plain["k"]) == pytest.approx(np.triu(tangent), rel=1e-12, abs=1e-14)

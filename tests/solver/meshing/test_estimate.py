@@ -9,7 +9,14 @@ import cadquery as cq
 import numpy as np
 import pytest
 
-from solver.meshing.estimate import BodySize, FaceSize, expected_elements, expected_memory
+from solver.meshing.estimate import (
+    BodySize,
+    FaceSize,
+    expected_elements,
+    expected_elements_of_parts,
+    expected_memory,
+)
+from solver.meshing.parts import Part, mesh_solids
 from solver.meshing.solid import MeshOptions, SizeField, mesh_solid
 
 BALL = cq.Solid.makeSphere(5.0, angleDegrees1=-90)
@@ -60,6 +67,18 @@ def test_a_field_counts() -> None:
     options = MeshOptions(2.0, 0, field=SizeField(coarse, wanted))
     fine = mesh_solid(brep(BOX), names, options)
     assert 1 / 1.5 < expected_elements(size_of(BOX), options) / len(fine.tets) < 1.5
+
+
+@pytest.mark.parametrize("size", [None, 0.5])
+def test_elements_of_touching_parts_are_known_within_a_factor(size: float | None) -> None:
+    film = cq.Solid.makeBox(10, 8, 0.5, cq.Vector(0, 0, -0.5))
+    solids, sizes, options = (BOX, film), (None, size), MeshOptions(1.2, 0)
+    parts = [
+        Part(str(number), brep(solid), ["skin"] * 6, own)
+        for number, (solid, own) in enumerate(zip(solids, sizes, strict=True))
+    ]
+    expected = expected_elements_of_parts([size_of(solid) for solid in solids], options, sizes)
+    assert 1 / 1.6 < expected / len(mesh_solids(parts, options).tets) < 1.6
 
 
 @pytest.mark.parametrize(

@@ -8,9 +8,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from meshes import tube_mesh
 
 from solver import (
     BodyForce,
+    EdgeForce,
     Mesh,
     Ogden,
     PointForce,
@@ -77,6 +79,37 @@ def test_a_body_force_weighs_the_body(box: Meshes) -> None:
     assert forces.sum(axis=0) == pytest.approx([0, 0, -3.0])
     centre = np.cross(mesh.nodes, forces).sum(axis=0)
     assert centre == pytest.approx(np.cross([1.0, 0.5, 1.5], [0, 0, -3.0]))
+
+
+def test_an_edge_force_has_its_resultant_at_the_middle_of_the_edge(box: Meshes) -> None:
+    mesh, force = box((2, 3, 2), (3.0, 2.0, 1.0), distortion=0.2), (0.1, 0.2, -0.3)
+    forces = nodal_forces(mesh, [EdgeForce(("x1", "z1"), force)])
+    loaded = mesh.nodes[forces.any(axis=1)]
+    assert np.allclose(loaded[:, [0, 2]], [3.0, 1.0]) and len(loaded) == 7
+    assert forces.sum(axis=0) == pytest.approx(force)
+    moment = np.cross(mesh.nodes, forces).sum(axis=0)
+    assert moment == pytest.approx(np.cross([3.0, 1.0, 1.0], force))
+
+
+def test_an_edge_force_does_work_on_the_mean_of_a_quadratic_displacement(box: Meshes) -> None:
+    """Along 0 <= y <= 2 the mean of y^2 is 4 / 3."""
+    mesh = box((1, 3, 1), (3.0, 2.0, 1.0))
+    forces = nodal_forces(mesh, [EdgeForce(("x1", "z1"), (0, 0, 1))])
+    assert forces[:, 2] @ mesh.nodes[:, 1] ** 2 == pytest.approx(4 / 3, rel=1e-12)
+
+
+def test_an_edge_force_follows_a_curved_edge() -> None:
+    """On a quarter of a circle the resultant acts at 2 R / pi in x and y."""
+    mesh = tube_mesh(3.0, 4.0, 1.0, (1, 6, 1), np.pi / 2)
+    forces = nodal_forces(mesh, [EdgeForce(("z1", "outside"), (0, 0, 1.0))])
+    at = 4.0 * 2 / np.pi
+    assert forces[:, 2] @ mesh.nodes == pytest.approx([at, at, 1.0], rel=1e-4)
+
+
+@pytest.mark.parametrize("surfaces", [("x1",), ("x1", "y0", "z1"), "x1", (1, 2)])
+def test_an_edge_is_given_by_two_names(surfaces: object) -> None:
+    with pytest.raises(ValueError, match=r"^edge force: surfaces must be"):
+        EdgeForce(surfaces, (0, 0, 1))  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize("stretch", ["0.9", "1.5", "3"])
@@ -202,6 +235,10 @@ def test_motions_that_make_no_sense_are_refused(
         (Traction("x1", (1, 0, float("nan"))), "finite"),
         (BodyForce(lambda at: at[:, :2]), "shape"),
         (PointForce((0.5, 0.3, 0.2), (1, 0, 0)), "no node lies at"),
+        (EdgeForce(("x1", "nowhere"), (0, 0, 1)), "no surface is called 'nowhere'"),
+        (EdgeForce(("x0", "x1"), (0, 0, 1)), "'x0' and 'x1' have no edge in common"),
+        (EdgeForce(("x1", "x1"), (0, 0, 1)), "'x1' and 'x1' have no edge in common"),
+        (EdgeForce(("x1", "z1"), (0, 0, float("nan"))), "finite"),
     ],
 )
 def test_loads_that_make_no_sense_are_refused(

@@ -55,9 +55,9 @@ def test_stress_linear_in_space_is_recovered_exactly(
     size = 1e-7  # small enough for sigma = 2 mu dev(strain)
     x, y, z = mesh.nodes.T
     displacement = size * np.stack([x**2, 0 * y, 0 * z], axis=1)
-    from solver.results.stress import deviatoric_at_nodes
+    from solver.results.stress import deviatoric_at_sides
 
-    stress = deviatoric_at_nodes(problem, displacement) / (2 * 3.47605 * size)
+    stress = deviatoric_at_sides(problem, displacement) / (2 * 3.47605 * size)
     assert stress[:, 0] == pytest.approx(2 * x * 2 / 3, abs=1e-5)
     assert stress[:, 1] == pytest.approx(-2 * x / 3, abs=1e-5)
     assert stress[:, 3:] == pytest.approx(0.0, abs=1e-5)

@@ -17,6 +17,7 @@ from solver import (
     BodyForce,
     Contact,
     Couple,
+    EdgeForce,
     FoundationSpring,
     Mesh,
     NodeSpring,
@@ -77,6 +78,7 @@ def loaded_bar() -> Solution:
         Traction("tip", (0.1, 0.02, 0.05)),
         BodyForce(lambda x: np.stack([0.02 * x[:, 1], 0.01 * x[:, 0], 0 * x[:, 0]], 1)),
         PointForce((4.0, 0.0, 0.0), (0.01, 0.0, -0.02)),
+        EdgeForce(("y0", "z1"), (0.0, 0.01, 0.02)),
     )
     springs = (FoundationSpring("z0", (0.02, 0.01, 0.05)), NodeSpring((4.0, 1.0, 0.0), (0, 0.1, 0)))
     return solve(Problem(mesh, RIVLIN, Supports(("x0",)), loads=loads, springs=springs), 0.0, TIGHT)

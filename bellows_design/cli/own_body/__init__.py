@@ -1,0 +1,1 @@
+"""Bodies of one's own on the command line."""

@@ -1,0 +1,1 @@
+"""An own body under its load: its mesh and problem, the solve, and what the solutions say."""

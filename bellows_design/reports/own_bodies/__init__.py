@@ -1,0 +1,1 @@
+"""Reports on bodies of one's own."""
