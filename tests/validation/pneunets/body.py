@@ -30,6 +30,7 @@ class Actuator:
         chambers: their number.
         wall: between, beside, above and before the chambers.
         layer: of silicone between the mouths of the chambers and the film.
+        film: thickness of a film that is a part of the mesh; 0 for one that is a surface.
         inlet_open: whether the tunnel goes on through the clamped end.
         clamp: length of solid added at the inlet.
         missing: chambers left out, from the clamped end on.
@@ -38,6 +39,7 @@ class Actuator:
     chambers: int
     wall: float
     layer: float = 0.5
+    film: float = 0.0
     inlet_open: bool = False
     clamp: float = 0.0
     missing: int = 0
@@ -71,7 +73,7 @@ class Actuator:
     @property
     def bottom(self) -> float:
         """z of the lower side, mm."""
-        return -self.layer
+        return -self.layer - self.film
 
     @property
     def chamber_starts(self) -> tuple[float, ...]:
@@ -123,8 +125,11 @@ def face_name(body: Actuator, face: cq.Face) -> str:
 def mesh(body: Actuator, near: float, far: float) -> Mesh:
     """Edges of about ``near`` (mm) at the chambers, growing to ``far``."""
     parts = [part(body, "silicone", solid(body))]
+    if body.film:
+        under = box((body.clamp, body.length), body.half_width, (body.bottom, -body.layer)).val()
+        parts.append(part(body, "film", under))
     if body.clamp:
-        held = box((0, body.clamp), body.half_width, (-body.layer, body.height)).val()
+        held = box((0, body.clamp), body.half_width, (body.bottom, body.height)).val()
         parts.append(part(body, "held", held))
     options = MeshOptions(size=far, elements_per_circle=0, smallest_size=min(near, far) / 2)
     coarse = mesh_solids(parts, options)

@@ -24,6 +24,7 @@ from solver import (
     contact_forces,
     inflate,
 )
+from solver.nonlinear.events import Listener
 
 DENSITY, GRAVITY = 1070.0, 9.81  # kg/m^3, m/s^2
 
@@ -69,7 +70,8 @@ class Setup:
         near: edges at the chambers, mm.
         far: largest edges, mm.
         weight: direction of gravity; none by default.
-        plate: whether a frictionless plate lies under the body.
+        plate: whether a frictionless plate lies under the end of the body.
+        gap: angle by which the plate leans away from the body, about the edge of the clamp, degrees.
         highest: pressure at which the path may end, kPa.
     """
 
@@ -80,11 +82,12 @@ class Setup:
     far: float = 4.0
     weight: tuple[float, float, float] = (0.0, 0.0, 0.0)
     plate: bool = False
+    gap: float = 0.0
     highest: float = 46.0
 
     def problem(self) -> Problem:
         """Half of it."""
-        body, film = self.body, self.film
+        body = self.body
         stations = (0.0, *self._middles(), body.length)
         return Problem(
             self.mesh(),
@@ -94,8 +97,17 @@ class Setup:
             loads=self._loads(),
             contacts=self._contacts(),
             axis=None if self.plate else SlenderAxis(stations),
-            membranes=(Membrane("bottom", film.young_modulus, film.poisson_ratio, film.thickness),),
+            **self._film(),
         )
+
+    def _film(self) -> dict[str, Any]:
+        """The film as a membrane, or as the material of its part."""
+        film = self.film
+        if self.body.film:
+            mu = film.young_modulus / 2 / (1 + film.poisson_ratio)
+            return {"materials": {"film": Ogden.neo_hooke(mu, bulk_modulus(mu, film.poisson_ratio))}}
+        membrane = Membrane("bottom", film.young_modulus, film.poisson_ratio, film.thickness)
+        return {"membranes": (membrane,)}
 
     def _middles(self) -> list[float]:
         """x of the middles of chambers and of the walls between them, mm."""
@@ -104,8 +116,12 @@ class Setup:
         return sorted([*(start + half for start in starts), *walls])
 
     def mesh(self) -> Mesh:
-        """Of the half."""
-        return mesh(self.body, self.near, self.far)
+        """Of the half; its surface ``pad`` is the part of the bottom that the plate may touch."""
+        found = mesh(self.body, self.near, self.far)
+        bottom = found.triangles("bottom")
+        ends = found.nodes[bottom, 0].min(axis=1)
+        pad = bottom[ends > self.body.length - PAD - 1e-6]
+        return found.with_surfaces({"pad": pad})
 
     def _loads(self) -> tuple[BodyForce, ...]:
         size = DENSITY * 1e-9 * GRAVITY
@@ -115,8 +131,13 @@ class Setup:
     def _contacts(self) -> tuple[RigidPlane, ...]:
         if not self.plate:
             return ()
-        return (RigidPlane("bottom", PENETRATION, (0.0, 0.0, 1.0), (0.0, 0.0, self.body.bottom)),)
+        sine, cosine = np.sin(np.radians(self.gap)), np.cos(np.radians(self.gap))
+        edge = (self.body.clamp, 0.0, self.body.bottom)
+        return (RigidPlane("pad", PENETRATION, (float(sine), 0.0, float(cosine)), edge),)
 
+
+PAD = 5.0
+"""Length of the end of the body that the plate may touch, mm."""
 
 PENETRATION = 0.05
 """Of the plate at a pressure of the shear modulus, mm."""
@@ -145,7 +166,7 @@ def readings(setup: Setup, solution: Solution) -> Readings:
         "stable_at_volume": float(bool(end.stable_at_volume)),
     }
     if setup.plate:
-        found["force_n"] = 2 * contact_forces(solution)[0].force[2]
+        found["force_n"] = 2 * float(np.linalg.norm(contact_forces(solution)[0].force))
     return found
 
 
@@ -157,16 +178,18 @@ AT_ONCE = 4
 """Of these volumes in one call of ``inflate``."""
 
 
-def path(setup: Setup, tell: Callable[[Readings], Any] = lambda _: None) -> list[Readings]:
+def path(
+    setup: Setup, tell: Callable[[Readings], Any] = lambda _: None, listener: Listener | None = None
+) -> list[Readings]:
     """Readings of equilibria of growing volume, until the pressure is above ``highest``."""
     found = []
-    for solution in equilibria(setup):
+    for solution in equilibria(setup, listener):
         found.append(readings(setup, solution))
         tell(found[-1])
     return found
 
 
-def equilibria(setup: Setup) -> Iterator[Solution]:
+def equilibria(setup: Setup, listener: Listener | None = None) -> Iterator[Solution]:
     """Equilibria of growing volume, as far as they are found."""
     problem = setup.problem()
     mesh = problem.mesh
@@ -175,7 +198,7 @@ def equilibria(setup: Setup) -> Iterator[Solution]:
     last = None
     for first in range(0, len(FILLED), AT_ONCE):
         *stops, end = (start * each for each in FILLED[first : first + AT_ONCE])
-        last = inflate(problem, end, options, stops=stops, after=last)
+        last = inflate(problem, end, options, listener, stops, last)
         yield from last.at_stops
         if not last.converged:
             return

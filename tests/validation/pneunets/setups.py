@@ -1,4 +1,4 @@
-"""What is computed of the actuators: bodies, materials, meshes, and one change at a time."""
+"""What is computed of the actuators: bodies, materials, films, and one change at a time."""
 
 from __future__ import annotations
 
@@ -9,29 +9,40 @@ from pneunets.body import Actuator
 from pneunets.paths import Film, Setup, ogden, yeoh
 
 BODIES = {
-    "c5-w7": (Actuator(5, 7.0), 46.0),
-    "c7-w7": (Actuator(7, 7.0), 46.0),
-    "c5-w10": (Actuator(5, 10.0), 66.0),
+    "c5-w7": (Actuator(5, 7.0), 46.0, 55.0),
+    "c7-w7": (Actuator(7, 7.0), 46.0, 55.0),
+    "c5-w10": (Actuator(5, 10.0), 66.0, 65.0),
 }
-"""Name -> dimensions, and the pressure up to which the angle was measured, kPa."""
+"""Name -> dimensions, and the pressures up to which angle and force were measured, kPa."""
 
 MATERIALS = {"Ogden": ogden(), "Yeoh": yeoh()}
 
-MESHES = {"coarse": (3.0, 6.0), "middle": (2.0, 4.0), "fine": (1.2, 3.5)}
+COARSE, FINE, SAMPLE = (3.0, 6.0), (2.0, 4.0), (4.0, 8.0)
 """Edges at the chambers and elsewhere, mm."""
 
-PUBLISHED = 4100.0
-"""Young's modulus of the film, MPa."""
+THIN, STIFF = 0.2, 200.0
+"""Thickness of a film that is a solid, mm, and its Young's modulus, MPa: it stretches by half a
+percent, and bends by less than a hundredth of the body's stiffness."""
+
+MEMBRANE = Film(82.0)
+"""A fiftieth of the published stiffness: with more the film, pressed together, folds on the mesh."""
 
 
-def setup(body: str, material: str, mesh: str) -> Setup:
-    """The free actuator."""
-    actuator, highest = BODIES[body]
-    near, far = MESHES[mesh]
-    return Setup(actuator, MATERIALS[material], near=near, far=far, highest=highest)
+def setup(body: str, material: str, mesh: tuple[float, float] = COARSE) -> Setup:
+    """The free actuator; a thin solid closes the chambers."""
+    actuator, highest, _ = BODIES[body]
+    closed = replace(actuator, layer=0.0, film=THIN)
+    near, far = mesh
+    film = Film(STIFF, thickness=THIN)
+    return Setup(closed, MATERIALS[material], film, near, far, highest=highest)
 
 
-BASE = setup("c5-w7", "Ogden", "coarse")
+def with_membrane(given: Setup, film: Film = MEMBRANE, layer: float = 0.5) -> Setup:
+    """A layer of silicone closes the chambers, a membrane lies under it."""
+    return replace(given, body=replace(given.body, layer=layer, film=0.0), film=film)
+
+
+BASE = setup("c5-w7", "Ogden")
 
 
 def with_body(**changes: float | bool) -> Setup:
@@ -39,60 +50,53 @@ def with_body(**changes: float | bool) -> Setup:
     return replace(BASE, body=replace(BASE.body, **changes))  # type: ignore[arg-type]
 
 
-def with_film(factor: float) -> Setup:
-    """The base with a film that is stiffer by a factor."""
-    modulus = factor * BASE.film.young_modulus
-    return replace(BASE, film=replace(BASE.film, young_modulus=modulus))
-
-
 VARIANTS: Mapping[str, Setup] = {
-    "film half as stiff": with_film(0.5),
-    "film twice as stiff": with_film(2.0),
-    "film without lateral contraction": replace(
-        BASE, film=Film(BASE.film.young_modulus, poisson_ratio=0.0)
-    ),
-    "layer 0.25 mm": with_body(layer=0.25),
-    "layer 1 mm": with_body(layer=1.0),
-    "inlet open": with_body(inlet_open=True),
+    "material 15 % softer": replace(BASE, material=ogden(stiffness=0.85)),
     "weight, hanging": replace(BASE, weight=(1.0, 0.0, 0.0)),
     "weight, standing": replace(BASE, weight=(-1.0, 0.0, 0.0)),
     "weight, film below": replace(BASE, weight=(0.0, 0.0, -1.0)),
     "weight, film above": replace(BASE, weight=(0.0, 0.0, 1.0)),
     "Poisson's ratio 0.45": replace(BASE, material=ogden(0.45)),
-    "Poisson's ratio 0.49": replace(BASE, material=ogden(0.49)),
     "Poisson's ratio 0.499": replace(BASE, material=ogden(0.499)),
-    "material 15 % softer": replace(BASE, material=ogden(stiffness=0.85)),
+    "inlet open": with_body(inlet_open=True),
+    "film half as stiff": replace(BASE, film=Film(STIFF / 2, thickness=THIN)),
+    "film twice as stiff": replace(BASE, film=Film(STIFF * 2, thickness=THIN)),
+    "0.5 mm of silicone above the film": with_body(layer=0.5),
+    "membrane under 0.5 mm": with_membrane(BASE),
+    "membrane under 0.5 mm, half as stiff": with_membrane(BASE, Film(41.0)),
+    "membrane under 0.5 mm, finer mesh": with_membrane(setup("c5-w7", "Ogden", FINE)),
 }
-"""One change each of c5-w7, Ogden, on the coarse mesh."""
+"""One change each of c5-w7, Ogden."""
 
 CLAMP = 5.0
 """Length of the body in the clamp where the force was measured, mm."""
 
-FORCE_ENDS = {"c5-w7": 55.0, "c7-w7": 55.0, "c5-w10": 65.0}
+GAPS = (10.0, 20.0)
+"""Of the plate, degrees."""
 
 
-def force_setup(body: str, material: str, mesh: str, missing: int) -> Setup:
+def force_setup(body: str, material: str, missing: int, gap: float = 0.0) -> Setup:
     """The actuator with its tip on a plate, ``missing`` chambers filled at the clamp."""
-    free = setup(body, material, mesh)
+    free = setup(body, material)
     longer = replace(free.body, clamp=CLAMP, missing=missing)
-    return replace(free, body=longer, plate=True, highest=FORCE_ENDS[body])
+    return replace(free, body=longer, plate=True, gap=gap, highest=BODIES[body][2])
 
 
 def all_setups() -> dict[str, Setup]:
     """Name of a computation -> setup."""
     found = {
-        f"{body}, {material}": setup(body, material, "middle")
-        for body in BODIES
-        for material in MATERIALS
+        f"{body}, {material}": setup(body, material) for body in BODIES for material in MATERIALS
     }
-    found["c5-w7, Ogden, fine mesh"] = setup("c5-w7", "Ogden", "fine")
-    found |= {f"{body}, Ogden, coarse mesh": setup(body, "Ogden", "coarse") for body in BODIES}
+    found["c5-w7, finer mesh"] = setup("c5-w7", "Ogden", FINE)
     found |= {f"c5-w7, {name}": changed for name, changed in VARIANTS.items()}
     found |= {
-        f"force {body}, {material}, {missing} missing": force_setup(body, material, "coarse", missing)
+        f"force {body}, {material}, {missing} missing": force_setup(body, material, missing)
         for body in BODIES
         for material in MATERIALS
         for missing in (0, 1)
     }
-    found["force c5-w7, Ogden, 0 missing, middle mesh"] = force_setup("c5-w7", "Ogden", "middle", 0)
+    found |= {
+        f"force c5-w7, plate at {gap:g}°": force_setup("c5-w7", "Ogden", 0, gap) for gap in GAPS
+    }
+    found["sample"] = replace(setup("c5-w7", "Ogden", SAMPLE), highest=1.0)
     return found
