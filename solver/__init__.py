@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from solver.results.contacts import ContactForce, contact_forces
     from solver.results.energy import Potential, potential, strain_energy
     from solver.results.folds import Folds
+    from solver.results.membranes.forces import MembraneForces, membrane_forces
     from solver.results.reactions import Reaction, reaction
     from solver.results.solution import PathPoint, Solution, cavity_volume, folded_elements
     from solver.results.stress import (
@@ -67,6 +68,7 @@ __all__ = [
     "Gradients",
     "Limit",
     "Membrane",
+    "MembraneForces",
     "Mesh",
     "Neighbouring",
     "NodeSpring",
@@ -99,6 +101,7 @@ __all__ = [
     "gradients",
     "inflate",
     "material_derivatives",
+    "membrane_forces",
     "neighbouring",
     "nodal_cauchy",
     "nodal_von_mises",
@@ -150,6 +153,7 @@ __getattr__ = imported_when_asked_for(
         "results.contacts": ("ContactForce", "contact_forces"),
         "results.energy": ("Potential", "potential", "strain_energy"),
         "results.folds": ("Folds",),
+        "results.membranes.forces": ("MembraneForces", "membrane_forces"),
         "results.reactions": ("Reaction", "reaction"),
         "problem.supports": ("Supports",),
         "results.solution": ("PathPoint", "Solution", "cavity_volume", "folded_elements"),

@@ -340,7 +340,7 @@ class Newton:
                 return there
             led = self._led(reached.state, load, target)
             whole = replace(step, displacement=step.displacement + led)
-            return self._with_membrane_stress(reached.state, whole, there)
+            return self.with_membrane_stress(reached.state, whole, there)
         return self.with_stress(reached.state, step, moved)
 
     def _led(self, state: State, load: float, target: float) -> Reals:
@@ -359,14 +359,14 @@ class Newton:
 
         Not used on a cell with a moving plane (see the module's text).
         """
-        moved = self._with_membrane_stress(state, increment, moved)
+        moved = self.with_membrane_stress(state, increment, moved)
         if not self.slender:
             return moved
         stress = self.assembly.extrapolated_stress(state, increment)
         return replace(moved, geometric_stress=stress)
 
-    def _with_membrane_stress(self, state: State, increment: State, moved: State) -> State:
-        """The same for the stress of membranes; ``moved`` itself without any."""
+    def with_membrane_stress(self, state: State, increment: State, moved: State) -> State:
+        """``moved`` with the stress of its membranes only; itself if it has none."""
         films = self.assembly.films
         if films is None:
             return moved

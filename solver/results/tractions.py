@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from solver.arrays import Reals
+from solver.assembly.membranes.membranes import Membranes
 from solver.assembly.pairs.made import contact_pairs
 from solver.mesh.elements import triangle_rule
 from solver.problem.contacts import surfaces_of
@@ -40,13 +41,17 @@ def traction_forces(solution: Solution, surface: str) -> Reals:
 
 
 def _loads_on(solution: Solution, surface: str) -> Reals:
-    """Nodal forces (n, 3) of dead tractions, springs and contacts on a surface, N."""
+    """Nodal forces (n, 3) of dead tractions, springs, membranes and contacts on a surface, N."""
     problem, load = solution.problem, solution.load
     dead = [each for each in problem.loads if isinstance(each, Traction)]
     forces = load * nodal_forces(problem.mesh, [each for each in dead if each.surface == surface])
     springs = [each for each in problem.springs if isinstance(each, FoundationSpring)]
     stiffness = stiffness_matrix(problem.mesh, [s for s in springs if s.surface == surface])
     forces -= (stiffness @ solution.displacement.ravel()).reshape(-1, 3)
+    for membrane in problem.membranes:
+        if membrane.surface == surface:
+            films = Membranes.on(problem.mesh, membrane)
+            forces -= films.forces(solution.displacement)
     nodes = problem.mesh.surface_nodes(surface)
     for pair in contact_pairs(problem):
         if surface in surfaces_of(pair.contact):

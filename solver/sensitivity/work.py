@@ -2,7 +2,7 @@
 
 The work of all forces along the direction of an adjoint is the adjoint times the residual. Its
 parts are the solid's (``solver.kernels.shape_derivatives``), the pressure's, those of contacts,
-springs and dead loads.
+springs, membranes and dead loads.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from solver.arrays import Reals
 from solver.assembly.assembly import NO_SUPPORTS, Assembly, solid
 from solver.assembly.colouring import chunks
+from solver.assembly.membranes.derivatives import membrane_derivatives
 from solver.assembly.pairs.made import contact_pairs
 from solver.assembly.pairs.pair import ContactPair
 from solver.assembly.state import State
@@ -96,6 +97,9 @@ def _of_forces(at: Equilibrated, direction: Direction) -> Derivatives:
             spring_derivative(problem, at.state.displacement, direction.displacement),
             at.assembly.springs.forces(direction.displacement),
         )
+    if problem.membranes:
+        moved = at.state.displacement, direction.displacement
+        both = both + Derivatives(*membrane_derivatives(problem, *moved))
     if problem.loads:
         nodal = load_derivative(problem, direction.displacement)
         dead = at.load * (nodal + section_derivative(problem, at.state, direction))

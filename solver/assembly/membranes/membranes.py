@@ -18,6 +18,8 @@ import numpy as np
 from solver.arrays import Integers, Reals
 from solver.assembly.membranes.stiffness import sample_stiffness
 from solver.assembly.membranes.strain import regge_samples
+from solver.mesh.mesh import Mesh
+from solver.problem.membranes import Membrane
 from solver.problem.problem import Problem
 
 SAMPLES = regge_samples()
@@ -37,42 +39,47 @@ class Membranes:
 
     @staticmethod
     def of(problem: Problem) -> Membranes:
-        """The membranes of a problem."""
-        mesh, membranes = problem.mesh, problem.membranes
-        triangles = np.concatenate(
-            [np.empty((0, 6), np.int32), *(mesh.triangles(each.surface) for each in membranes)]
-        )
+        """All membranes of a problem."""
+        each = [Membranes.on(problem.mesh, membrane) for membrane in problem.membranes]
         count = len(SAMPLES.forms)
-        stiffness = np.concatenate(
-            [np.empty((0, count, count)), *(sample_stiffness(mesh, m, SAMPLES) for m in membranes)]
+        return Membranes(
+            np.concatenate([np.empty((0, 6), np.int32), *(one.triangles for one in each)]),
+            np.concatenate([np.empty((0, 6, 3)), *(one.reference for one in each)]),
+            np.concatenate([np.empty((0, count, count)), *(one.stiffness for one in each)]),
         )
-        return Membranes(triangles, _from_first(mesh.nodes[triangles]), stiffness)
+
+    @staticmethod
+    def on(mesh: Mesh, membrane: Membrane) -> Membranes:
+        """A single one."""
+        triangles = mesh.triangles(membrane.surface)
+        stiffness = sample_stiffness(mesh, membrane, SAMPLES)
+        return Membranes(triangles, from_first(mesh.nodes[triangles]), stiffness)
 
     def strains(self, displacement: Reals) -> Reals:
         """Samples e (k, m) of the strain after a displacement (n, 3), mm^2."""
-        moved = _from_first(displacement[self.triangles])
+        moved = from_first(displacement[self.triangles])
         middle = self.reference + moved / 2
         samples: Reals = np.einsum("mab,kai,kbi->km", SAMPLES.forms, middle, moved, optimize=True)
         return samples
 
     def stresses(self, displacement: Reals) -> Reals:
         """What works on the samples (k, m): s = D e, N/mm."""
-        return self._worked(self.strains(displacement))
+        return self.worked(self.strains(displacement))
 
     def stresses_along(self, displacement: Reals, increment: Reals) -> Reals:
         """The same after an increment (n, 3), to first order."""
-        along = _from_first(increment[self.triangles])
-        change = np.einsum("kmai,kai->km", self._slopes(displacement), along)
-        return self._worked(self.strains(displacement) + change)
+        along = from_first(increment[self.triangles])
+        change = np.einsum("kmai,kai->km", self.slopes(displacement), along)
+        return self.worked(self.strains(displacement) + change)
 
     def energy(self, displacement: Reals) -> float:
         """Energy of all membranes, N mm."""
         strains = self.strains(displacement)
-        return 0.5 * float((strains * self._worked(strains)).sum())
+        return 0.5 * float((strains * self.worked(strains)).sum())
 
     def forces(self, displacement: Reals) -> Reals:
         """Derivative (n, 3) of the energy by the displacement, N."""
-        slopes, stresses = self._slopes(displacement), self.stresses(displacement)
+        slopes, stresses = self.slopes(displacement), self.stresses(displacement)
         parts = np.einsum("km,kmai->kai", stresses, slopes)
         forces = np.zeros_like(displacement)
         np.add.at(forces, self.triangles, parts)
@@ -80,7 +87,7 @@ class Membranes:
 
     def tangents(self, displacement: Reals, stresses: Reals) -> Reals:
         """Tangents (k, 18, 18) of the triangles, N/mm, with ``stresses`` in the geometric part."""
-        slopes = self._slopes(displacement).reshape(len(self.triangles), -1, 18)
+        slopes = self.slopes(displacement).reshape(len(self.triangles), -1, 18)
         tangents: Reals = slopes.transpose(0, 2, 1) @ (self.stiffness @ slopes)
         bent = np.einsum("km,mab->kab", stresses, SAMPLES.forms)
         blocks = tangents.reshape(-1, 6, 3, 6, 3)
@@ -88,16 +95,17 @@ class Membranes:
             blocks[:, :, axis, :, axis] += bent
         return tangents
 
-    def _slopes(self, displacement: Reals) -> Reals:
+    def slopes(self, displacement: Reals) -> Reals:
         """Derivatives (k, m, 6, 3) of the samples by the nodes: G x, mm."""
-        positions = self.reference + _from_first(displacement[self.triangles])
+        positions = self.reference + from_first(displacement[self.triangles])
         return SAMPLES.forms @ positions[:, None]
 
-    def _worked(self, strains: Reals) -> Reals:
+    def worked(self, strains: Reals) -> Reals:
+        """Stiffness times samples of a strain (k, m), N/mm."""
         stresses: Reals = np.einsum("kmn,kn->km", self.stiffness, strains)
         return stresses
 
 
-def _from_first(values: Reals) -> Reals:
+def from_first(values: Reals) -> Reals:
     """Vectors of triangles (k, 6, 3) from that of the first node on, which strain does not see."""
     return values - values[:, :1]

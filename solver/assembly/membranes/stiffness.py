@@ -41,3 +41,14 @@ def metrics(nodes: Reals, triangles: Integers) -> tuple[Reals, Reals]:
     tangents = np.einsum("qad,kai->kqdi", triangle_rule().gradients, nodes[triangles])
     metric = np.einsum("kqai,kqbi->kqab", tangents, tangents)
     return metric, np.linalg.inv(metric)
+
+
+def plane_stress(membrane: Membrane, inverse: Reals, strain: Reals) -> Reals:
+    """Second Piola-Kirchhoff stress times thickness, S^ab t, of strains E_ab (..., 2, 2), N/mm.
+
+    ``inverse`` (..., 2, 2): A^ab. In the parameters, like the strain.
+    """
+    nu = membrane.poisson_ratio
+    traces = np.einsum("...ab,...ab->...", inverse, strain)[..., None, None]
+    stress: Reals = nu * traces * inverse + (1 - nu) * (inverse @ strain @ inverse)
+    return membrane.stiffness / (1 - nu**2) * stress

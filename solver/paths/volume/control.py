@@ -113,7 +113,14 @@ def _loaded(
 def _goes_on(problem: Problem, former: Problem) -> bool:
     """Whether a stage has the loads and supports of the one before, and leads nothing on."""
     ours, theirs = (
-        (each.loads, each.supports, set(each.pressurised), each.contacts, each.springs)
+        (
+            each.loads,
+            each.supports,
+            set(each.pressurised),
+            each.contacts,
+            each.springs,
+            each.membranes,
+        )
         for each in (problem, former)
     )
     return ours == theirs and not problem.supports.prescribed and not bodies_move(problem.contacts)

@@ -1,0 +1,1 @@
+"""What is read of membranes in an equilibrium."""

@@ -1,0 +1,125 @@
+"""Forces in membranes, and where they are pressed together.
+
+A real film buckles into wrinkles under the least compression, and bears next to none of it. A
+``Membrane`` bears it, until the body under it is no longer stable.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from solver.arrays import Integers, Reals
+from solver.assembly.membranes.membranes import SAMPLES, Membranes
+from solver.assembly.membranes.stiffness import metrics, plane_stress
+from solver.mesh.elements import TRIANGLE_EDGES, quadratic_gradients, triangle_rule
+from solver.mesh.mesh import Mesh
+from solver.problem.membranes import Membrane
+from solver.results.solution import Solution, check_solution
+
+COMPRESSED = 0.01
+"""Compression, as a share of the largest principal force, from which on a triangle counts."""
+
+
+@dataclass(frozen=True)
+class MembraneForces:
+    """Forces in a membrane per deformed length, at the centres of its triangles.
+
+    Attributes:
+        surface: name of its surface.
+        principal: the larger and the smaller principal force of each triangle; positive in tension.
+
+            *Shape:* (k, 2) in N/mm.
+        positions: of the centres in the undeformed body.
+
+            *Shape:* (k, 3) in mm.
+        areas: of the undeformed triangles.
+
+            *Shape:* (k,) in mm^2.
+    """
+
+    surface: str
+    principal: Reals
+    positions: Reals
+    areas: Reals
+
+    @property
+    def highest(self) -> float:
+        """Largest principal force, N/mm; negative if all are compressive."""
+        return float(self.principal.max())
+
+    @property
+    def lowest(self) -> float:
+        """Smallest principal force, N/mm; negative in compression."""
+        return float(self.principal.min())
+
+    @property
+    def compressed(self) -> NDArray[np.bool_]:
+        """Triangles (k,) whose smaller force is a compression above 1 % of the largest force."""
+        return np.asarray(self.principal[:, 1] < -COMPRESSED * np.abs(self.principal).max())
+
+    @property
+    def warning(self) -> str:
+        """One sentence on where a real film would wrinkle; empty if it would not."""
+        compressed = self.compressed
+        if not compressed.any():
+            return ""
+        share = self.areas[compressed].sum() / self.areas.sum()
+        place = ", ".join(f"{x:.4g}" for x in self.positions[self.principal[:, 1].argmin()])
+        return (
+            f"the membrane {self.surface!r} is compressed over {100 * share:.0f} % of its area, "
+            f"most by {-self.lowest:.3g} N/mm at ({place}) mm of the undeformed body: a real film "
+            "wrinkles there and bears next to none of it."
+        )
+
+
+def membrane_forces(solution: Solution) -> tuple[MembraneForces, ...]:
+    """Forces in the membranes of an equilibrium.
+
+    Args:
+        solution: an equilibrium.
+
+    Returns:
+        Those of each of ``Problem.membranes``, in their order.
+    """
+    check_solution(solution)
+    mesh, moved = solution.problem.mesh, solution.displacement
+    return tuple(_forces(mesh, membrane, moved) for membrane in solution.problem.membranes)
+
+
+def _forces(mesh: Mesh, membrane: Membrane, displacement: Reals) -> MembraneForces:
+    """Cauchy stress times thickness, S^ac a_cb t sqrt(A / a), with a = A + 2 E: its eigenvalues."""
+    triangles = mesh.triangles(membrane.surface)
+    metric = _central_metrics(mesh.nodes, triangles)
+    samples = Membranes.on(mesh, membrane).strains(displacement)
+    centre = np.tensordot(2 * triangle_rule().weights, SAMPLES.basis, (0, 1))
+    strain = np.tensordot(samples, centre, 1)
+    stress = plane_stress(membrane, np.asarray(np.linalg.inv(metric), np.float64), strain)
+    deformed = metric + 2 * strain
+    stretched = np.sqrt(np.linalg.det(metric) / np.linalg.det(deformed))
+    principal = _eigenvalues(stress @ deformed) * stretched[:, None]
+    centres = mesh.nodes[triangles[:, :3]].mean(axis=1)
+    return MembraneForces(membrane.surface, principal, centres, _areas(mesh.nodes, triangles))
+
+
+def _areas(nodes: Reals, triangles: Integers) -> Reals:
+    """Areas (k,) of curved triangles, mm^2."""
+    metric, _ = metrics(nodes, triangles)
+    return np.sqrt(np.linalg.det(metric)) @ triangle_rule().weights
+
+
+def _central_metrics(nodes: Reals, triangles: Integers) -> Reals:
+    """A_ab (k, 2, 2) at the centres of triangles, mm^2."""
+    gradients = quadratic_gradients(np.full((1, 3), 1 / 3), TRIANGLE_EDGES)[0]
+    tangents = np.einsum("ad,kai->kdi", gradients, nodes[triangles])
+    metric: Reals = tangents @ tangents.swapaxes(1, 2)
+    return metric
+
+
+def _eigenvalues(tensors: Reals) -> Reals:
+    """Real eigenvalues (k, 2) of mixed tensors (k, 2, 2), the larger ones first."""
+    mean = np.trace(tensors, axis1=1, axis2=2) / 2
+    across = np.sqrt(np.maximum(mean**2 - np.linalg.det(tensors), 0.0))
+    return np.stack([mean + across, mean - across], axis=1)
