@@ -15,7 +15,7 @@ import numpy as np
 
 from solver import Mesh
 from solver.arrays import Reals
-from solver.meshing import MeshOptions, mesh_solid
+from solver.meshing import MeshOptions, Part, mesh_solids
 from solver.meshing.solid import SizeField
 
 CHAMBER_LENGTH, CHAMBER_WIDTH, CHAMBER_HEIGHT = 2.0, 8.0, 8.0  # mm, along x, y, z
@@ -29,7 +29,8 @@ class Actuator:
     Attributes:
         chambers: their number.
         wall: between, beside, above and before the chambers.
-        layer: of silicone below the mouths of the chambers, which the film is glued to.
+        layer: of silicone between the mouths of the chambers and the film.
+        film: thickness of a film that is a part of the mesh; 0 for one that is a surface.
         inlet_open: whether the tunnel goes on through the clamped end.
         clamp: length of solid added at the inlet.
         missing: chambers left out, from the clamped end on.
@@ -38,6 +39,7 @@ class Actuator:
     chambers: int
     wall: float
     layer: float = 0.5
+    film: float = 0.0
     inlet_open: bool = False
     clamp: float = 0.0
     missing: int = 0
@@ -69,6 +71,11 @@ class Actuator:
         return CHAMBER_HEIGHT + self.wall
 
     @property
+    def bottom(self) -> float:
+        """z of the lower side, mm."""
+        return -self.layer - self.film
+
+    @property
     def chamber_starts(self) -> tuple[float, ...]:
         """x of the side of each chamber that is nearer to the clamp, mm."""
         pitch = CHAMBER_LENGTH + self.wall
@@ -78,13 +85,13 @@ class Actuator:
     @property
     def tunnel(self) -> tuple[float, float]:
         """x of both ends, mm."""
-        start = 0.0 if self.inlet_open else self.chamber_starts[0]
+        start = self.clamp if self.inlet_open else self.chamber_starts[0]
         return start, self.length - self.wall
 
 
 def solid(body: Actuator) -> cq.Solid:
-    """The half with y > 0."""
-    whole = box((0, body.length), body.half_width, (-body.layer, body.height))
+    """The half with y > 0, without what is in the clamp."""
+    whole = box((body.clamp, body.length), body.half_width, (-body.layer, body.height))
     for start in body.chamber_starts:
         whole = whole.cut(
             box((start, start + CHAMBER_LENGTH), CHAMBER_WIDTH / 2, (0, CHAMBER_HEIGHT))
@@ -100,13 +107,15 @@ def box(along: tuple[float, float], half_width: float, up: tuple[float, float]) 
 
 
 def face_name(body: Actuator, face: cq.Face) -> str:
-    """``symmetry``, ``clamp``, ``tip``, ``film``, ``top``, ``side`` or ``cavity``."""
+    """``symmetry``, ``clamp``, ``tip``, ``bottom``, ``top``, ``side`` or ``cavity``."""
     centre = face.Center()
+    if centre.x < body.clamp and centre.y > 1e-6:
+        return "clamp"
     planes = (
         ("symmetry", centre.y, 0.0),
         ("clamp", centre.x, 0.0),
         ("tip", centre.x, body.length),
-        ("film", centre.z, -body.layer),
+        ("bottom", centre.z, body.bottom),
         ("top", centre.z, body.height),
         ("side", centre.y, body.half_width),
     )
@@ -115,14 +124,24 @@ def face_name(body: Actuator, face: cq.Face) -> str:
 
 def mesh(body: Actuator, near: float, far: float) -> Mesh:
     """Edges of about ``near`` (mm) at the chambers, growing to ``far``."""
-    half = solid(body)
-    brep = BytesIO()
-    half.exportBrep(brep)
-    names = [face_name(body, face) for face in half.Faces()]
+    parts = [part(body, "silicone", solid(body))]
+    if body.film:
+        under = box((body.clamp, body.length), body.half_width, (body.bottom, -body.layer)).val()
+        parts.append(part(body, "film", under))
+    if body.clamp:
+        held = box((0, body.clamp), body.half_width, (body.bottom, body.height)).val()
+        parts.append(part(body, "held", held))
     options = MeshOptions(size=far, elements_per_circle=0, smallest_size=min(near, far) / 2)
-    coarse = mesh_solid(brep.getvalue(), names, options)
+    coarse = mesh_solids(parts, options)
     field = SizeField(coarse, wanted_sizes(body, coarse.nodes, near, far))
-    return mesh_solid(brep.getvalue(), names, replace(options, field=field))
+    return mesh_solids(parts, replace(options, field=field))
+
+
+def part(body: Actuator, name: str, shape: cq.Shape) -> Part:
+    """A solid with named faces."""
+    brep = BytesIO()
+    shape.exportBrep(brep)
+    return Part(name, brep.getvalue(), [face_name(body, face) for face in shape.Faces()])
 
 
 GROWTH = 0.4

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 
-from pneunets.body import Actuator, mesh
+from pneunets.body import CHAMBER_LENGTH, Actuator, mesh
 from solver import (
     BodyForce,
     Membrane,
@@ -16,6 +16,7 @@ from solver import (
     Ogden,
     Problem,
     RigidPlane,
+    SlenderAxis,
     Solution,
     SolverOptions,
     Supports,
@@ -23,6 +24,7 @@ from solver import (
     contact_forces,
     inflate,
 )
+from solver.nonlinear.events import Listener
 
 DENSITY, GRAVITY = 1070.0, 9.81  # kg/m^3, m/s^2
 
@@ -50,7 +52,7 @@ def yeoh(poisson_ratio: float = 0.48, stiffness: float = 1.0) -> Ogden:
 
 @dataclass(frozen=True)
 class Film:
-    """The silk film: MPa, mm; it is held where the body is."""
+    """The film, a membrane on the bottom; MPa, mm."""
 
     young_modulus: float = 4100.0
     poisson_ratio: float = 0.49
@@ -68,23 +70,25 @@ class Setup:
         near: edges at the chambers, mm.
         far: largest edges, mm.
         weight: direction of gravity; none by default.
-        plate: whether a frictionless plate lies under the body.
+        plate: whether a frictionless plate lies under the end of the body.
+        gap: angle by which the plate leans away from the body, about the edge of the clamp, degrees.
         highest: pressure at which the path may end, kPa.
     """
 
     body: Actuator
     material: Ogden
-    film: Film | None = Film()
+    film: Film = Film(82.0)
     near: float = 2.0
     far: float = 4.0
     weight: tuple[float, float, float] = (0.0, 0.0, 0.0)
     plate: bool = False
+    gap: float = 0.0
     highest: float = 46.0
 
     def problem(self) -> Problem:
         """Half of it."""
-        body, film = self.body, self.film
-        films = () if film is None else (Membrane("film", film.young_modulus, film.poisson_ratio, film.thickness),)
+        body = self.body
+        stations = (0.0, *self._middles(), body.length)
         return Problem(
             self.mesh(),
             self.material,
@@ -92,12 +96,32 @@ class Setup:
             pressurised=("cavity",),
             loads=self._loads(),
             contacts=self._contacts(),
-            membranes=films,
+            axis=None if self.plate else SlenderAxis(stations),
+            **self._film(),
         )
 
+    def _film(self) -> dict[str, Any]:
+        """The film as a membrane, or as the material of its part."""
+        film = self.film
+        if self.body.film:
+            mu = film.young_modulus / 2 / (1 + film.poisson_ratio)
+            return {"materials": {"film": Ogden.neo_hooke(mu, bulk_modulus(mu, film.poisson_ratio))}}
+        membrane = Membrane("bottom", film.young_modulus, film.poisson_ratio, film.thickness)
+        return {"membranes": (membrane,)}
+
+    def _middles(self) -> list[float]:
+        """x of the middles of chambers and of the walls between them, mm."""
+        half, starts = CHAMBER_LENGTH / 2, self.body.chamber_starts
+        walls = [start + CHAMBER_LENGTH + self.body.wall / 2 for start in starts[:-1]]
+        return sorted([*(start + half for start in starts), *walls])
+
     def mesh(self) -> Mesh:
-        """Of the half."""
-        return mesh(self.body, self.near, self.far)
+        """Of the half; its surface ``pad`` is the part of the bottom that the plate may touch."""
+        found = mesh(self.body, self.near, self.far)
+        bottom = found.triangles("bottom")
+        ends = found.nodes[bottom, 0].min(axis=1)
+        pad = bottom[ends > self.body.length - PAD - 1e-6]
+        return found.with_surfaces({"pad": pad})
 
     def _loads(self) -> tuple[BodyForce, ...]:
         size = DENSITY * 1e-9 * GRAVITY
@@ -107,8 +131,13 @@ class Setup:
     def _contacts(self) -> tuple[RigidPlane, ...]:
         if not self.plate:
             return ()
-        return (RigidPlane("film", PENETRATION, (0.0, 0.0, 1.0), (0.0, 0.0, -self.body.layer)),)
+        sine, cosine = np.sin(np.radians(self.gap)), np.cos(np.radians(self.gap))
+        edge = (self.body.clamp, 0.0, self.body.bottom)
+        return (RigidPlane("pad", PENETRATION, (float(sine), 0.0, float(cosine)), edge),)
 
+
+PAD = 5.0
+"""Length of the end of the body that the plate may touch, mm."""
 
 PENETRATION = 0.05
 """Of the plate at a pressure of the shear modulus, mm."""
@@ -116,10 +145,13 @@ PENETRATION = 0.05
 
 def tip_node(body: Actuator, mesh: Mesh) -> int:
     """The bottom centre of the free end."""
-    return int(np.linalg.norm(mesh.nodes - [body.length, 0.0, -body.layer], axis=1).argmin())
+    return int(np.linalg.norm(mesh.nodes - [body.length, 0.0, body.bottom], axis=1).argmin())
 
 
-def readings(setup: Setup, solution: Solution) -> dict[str, float]:
+Readings: TypeAlias = dict[str, float]
+
+
+def readings(setup: Setup, solution: Solution) -> Readings:
     """Numbers of an equilibrium of the whole actuator."""
     body, problem = setup.body, solution.problem
     x, _, z = solution.displacement[tip_node(body, problem.mesh)]
@@ -134,52 +166,42 @@ def readings(setup: Setup, solution: Solution) -> dict[str, float]:
         "stable_at_volume": float(bool(end.stable_at_volume)),
     }
     if setup.plate:
-        found["force_n"] = 2 * contact_forces(solution)[0].force[2]
+        found["force_n"] = 2 * float(np.linalg.norm(contact_forces(solution)[0].force))
     return found
 
 
-STEPS = {"pressure_kpa": 3.0, "angle_deg": 6.0, "force_n": 0.1}
-"""Wanted changes from one equilibrium to the next."""
+FILLED = (1.1, 1.2, 1.3, 1.45, 1.6, 1.8, 2.0, 2.3, 2.6, 3.0, 3.5, 4.0, 4.6, 5.3, 6.0, 7.0, 8.0, 9.0)
+FILLED = (*FILLED, *(10.0 * 1.15**k for k in range(20)))
+"""Volumes of the cavity at which a path is read, in those of the undeformed one."""
 
-FIRST_GROWTH, LARGEST_GROWTH = 1.03, 1.35
-"""Of the volume, in the first step and in any."""
+AT_ONCE = 4
+"""Of these volumes in one call of ``inflate``."""
 
 
-def path(setup: Setup, tell: Callable[[dict[str, float]], Any] = lambda _: None) -> list[dict[str, float]]:
+def path(
+    setup: Setup, tell: Callable[[Readings], Any] = lambda _: None, listener: Listener | None = None
+) -> list[Readings]:
     """Readings of equilibria of growing volume, until the pressure is above ``highest``."""
     found = []
-    for solution in equilibria(setup):
+    for solution in equilibria(setup, listener):
         found.append(readings(setup, solution))
         tell(found[-1])
     return found
 
 
-def equilibria(setup: Setup) -> Iterator[Solution]:
-    """Equilibria of growing volume."""
+def equilibria(setup: Setup, listener: Listener | None = None) -> Iterator[Solution]:
+    """Equilibria of growing volume, as far as they are found."""
     problem = setup.problem()
     mesh = problem.mesh
-    volume = cavity_volume(mesh, np.zeros_like(mesh.nodes), problem.pressurised)
-    start, growth, former, solution = volume, FIRST_GROWTH, None, None
-    while volume < MOST * start:
-        volume *= growth
-        solution = inflate(problem, volume, SolverOptions(first_step=1.0), after=solution)
-        if not solution.converged:
+    start = cavity_volume(mesh, np.zeros_like(mesh.nodes), problem.pressurised)
+    options = SolverOptions(first_step=0.3, smallest_step=0.02)
+    last = None
+    for first in range(0, len(FILLED), AT_ONCE):
+        *stops, end = (start * each for each in FILLED[first : first + AT_ONCE])
+        last = inflate(problem, end, options, listener, stops, last)
+        yield from last.at_stops
+        if not last.converged:
             return
-        yield solution
-        now = readings(setup, solution)
-        if now["pressure_kpa"] > setup.highest:
+        yield last
+        if 1e3 * last.pressure > setup.highest:
             return
-        growth = next_growth(growth, former, now)
-        former = now
-
-
-MOST = 60.0
-"""Volume at which a path ends, in those of the undeformed cavity."""
-
-
-def next_growth(growth: float, former: dict[str, float] | None, now: dict[str, float]) -> float:
-    """Growth of the volume that changes the readings by about ``STEPS``."""
-    if former is None:
-        return growth
-    change = max(abs(now[key] - former[key]) / step for key, step in STEPS.items() if key in now)
-    return float(min(1 + (growth - 1) * min(1 / max(change, 0.25), 2.5), LARGEST_GROWTH))
