@@ -59,7 +59,7 @@ def test_a_film_that_is_a_region_wrinkles_under_the_force_of_theory() -> None:
 def test_a_membrane_buckles_sooner_on_finer_meshes() -> None:
     """Without bending stiffness no wave is the shortest but the mesh's.
 
-    Measured: 0.017, 0.011 and 0.006 N/mm with cells of 4, 2 and 1 mm; a film that bends takes 0.185.
+    Measured: 0.017, 0.011 and 0.006 N/mm with cells of 4, 2 and 1 mm; one that bends takes 0.185.
     """
     coarse, fine = (wrinkling_force(block(LEVELS, cells), 0.04) for cells in (16, 31))
     assert fine < 0.8 * coarse < 0.02
