@@ -124,7 +124,7 @@ class Arcs:
         load = here.load + arc.slope * length
         step = newton.system.expanded(arc.tangent).scaled(length)
         there = newton.kinematics.with_motions(newton.kinematics.advanced(here.state, step), load)
-        guess = newton.with_membrane_stress(here.state, step, there)
+        guess = newton.with_film_stress(here.state, step, there)
         return corrected(newton, guess, load, row)
 
     def _at_load(self, arc: Arc, load: float) -> Arc:

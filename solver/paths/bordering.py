@@ -75,7 +75,7 @@ def corrected(newton: Newton, guess: State, load: float, row: Row) -> Equilibriu
         small = newton.pressure_size(increment, there) <= pressure_bound(tolerance)
         if small and correction <= tolerance * size:
             return equilibrium_point(newton, there, load, iteration)
-        state = newton.with_membrane_stress(state, increment, there)
+        state = newton.with_film_stress(state, increment, there)
     return EquilibriumPoint(
         guess, load, iteration, failure=f"no convergence in {iteration} iterations"
     )

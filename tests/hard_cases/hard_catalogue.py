@@ -11,6 +11,7 @@ DOCUMENT = Path(__file__).parents[2] / "docs" / "hard-cases.md"
 FAMILIES = (
     "hard_materials",
     "hard_elements",
+    "hard_regions",
     "hard_meshes",
     "hard_supports",
     "hard_contacts",
