@@ -84,11 +84,7 @@ class Setup:
     def problem(self) -> Problem:
         """Half of it."""
         body, film = self.body, self.film
-        films = (
-            ()
-            if film is None
-            else (Membrane("film", film.young_modulus, film.poisson_ratio, film.thickness),)
-        )
+        films = () if film is None else (Membrane("film", film.young_modulus, film.poisson_ratio, film.thickness),)
         return Problem(
             self.mesh(),
             self.material,
@@ -149,9 +145,7 @@ FIRST_GROWTH, LARGEST_GROWTH = 1.03, 1.35
 """Of the volume, in the first step and in any."""
 
 
-def path(
-    setup: Setup, tell: Callable[[dict[str, float]], Any] = lambda _: None
-) -> list[dict[str, float]]:
+def path(setup: Setup, tell: Callable[[dict[str, float]], Any] = lambda _: None) -> list[dict[str, float]]:
     """Readings of equilibria of growing volume, until the pressure is above ``highest``."""
     found = []
     for solution in equilibria(setup):
