@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from bellows_design.measured.model.question import Question
     from bellows_design.measured.reading.curve import MeasuredCurve
     from bellows_design.own_body import OwnBody
-    from bellows_design.reports.measured import MeasuredReport
+    from bellows_design.reports.measured.tables import MeasuredReport
 
 
 @dataclass(frozen=True)
@@ -59,7 +59,7 @@ def compare_answer(options: ComparingOptions) -> Answer:
 
     Exit status 1, and no material, if one was asked for and no factor is determined.
     """
-    from bellows_design.reports.measured import MeasuredReport, measured_text
+    from bellows_design.reports.measured.tables import MeasuredReport, measured_text
 
     options.require()
     found = _compared(options)
@@ -154,7 +154,7 @@ def _with_files(
 ) -> tuple[MeasuredReport, list[Callable[[], None]]]:
     """The report with the files that can be written, and what writes them."""
     from bellows_design.materials.library import write_material
-    from bellows_design.reports.measured_plot import plot_measured
+    from bellows_design.reports.measured.plot import plot_measured
 
     writers: list[Callable[[], None]] = []
     if options.plot is not None:

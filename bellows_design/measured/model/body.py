@@ -26,7 +26,7 @@ from bellows_design.measured.model.question import (
     Question,
     mesh_count,
 )
-from bellows_design.measured.quantities import ANGLE, CHORD, FORCE
+from bellows_design.measured.quantities import ANGLE, CHORD, FORCE, Quantity
 from bellows_design.own_body import BodyEvaluation, BodyLoad, OwnBody
 from bellows_design.own_body.analysis.readings import BodyReading
 from bellows_design.progress import Progress
@@ -185,16 +185,17 @@ def _value(at: BodyReading, question: Question, body: OwnBody) -> float:
         found, missing = at.contact_force_n, "no obstacle to press on"
     else:
         moved, missing = at.tip_displacement_mm, "no surface or point “tip”"
-        chosen = {"displacement_x": slice(0, 1), "displacement_z": slice(2, 3)}
-        part = chosen.get(quantity.name)
-        found = (
-            None
-            if moved is None
-            else (float(np.linalg.norm(moved)) if part is None else moved[part][0])
-        )
+        found = None if moved is None else _along(quantity, moved)
     if found is None:
         raise DesignError(f"{body.name} has no {quantity.words}: it has {missing}.")
     return found
+
+
+def _along(quantity: Quantity, moved: tuple[float, float, float]) -> float:
+    """The part of a displacement that is asked for, or its size."""
+    x, _, z = moved
+    chosen = {"displacement_x": x, "displacement_z": z}
+    return chosen.get(quantity.name, float(np.linalg.norm(moved)))
 
 
 def _percent(found: BodyEvaluation, question: Question) -> float | None:

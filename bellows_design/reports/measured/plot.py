@@ -59,7 +59,7 @@ def _draw_residuals(axes: Axes, found: Comparison) -> None:
             pressure, value - found.values, "o", markersize=3, alpha=0.35, color=DESIGNED,
             label="model as designed",
         )  # fmt: skip
-    _points(axes, found, value - middle)
+    _points(axes, found, value - middle, "model with the factor" if found.factor else "measured")
     for each in found.departures:
         axes.axvspan(each.start, each.end, color="black", alpha=0.06, linewidth=0)
     axes.axhline(0, color="black", linewidth=0.8)
@@ -74,7 +74,7 @@ def _band(axes: Axes, pressure: Reals, ends: tuple[Reals, Reals], colour: str) -
     axes.fill_between(pressure, *ends, alpha=0.18, color=colour, linewidth=0)
 
 
-def _points(axes: Axes, found: Comparison, value: Reals) -> None:
+def _points(axes: Axes, found: Comparison, value: Reals, what: str = "measured") -> None:
     """Measured points; open where they tell nothing of a factor that was fitted."""
     spread, told = found.measured.spread, found.fitted.used
     filled = told if found.factor is not None else np.ones(value.size, bool)
@@ -82,7 +82,7 @@ def _points(axes: Axes, found: Comparison, value: Reals) -> None:
         axes.errorbar(
             found.pressure, value, spread, fmt="none", ecolor=MEASURED, alpha=0.5, linewidth=0.8
         )
-    for chosen, face, label in ((filled, MEASURED, "measured"), (~filled, "none", "not used")):
+    for chosen, face, label in ((filled, MEASURED, what), (~filled, "none", "not used")):
         if chosen.any():
             axes.plot(
                 found.pressure[chosen], value[chosen], "o", markersize=4, markeredgecolor=MEASURED,

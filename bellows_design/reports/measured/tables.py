@@ -86,7 +86,7 @@ def _table(found: Comparison) -> Table:
     title = f"{found.part} and {measured.name}: {measured.quantity.label}"
     table = Table(title=title, title_justify="left", box=SIMPLE)
     fitted = ("fitted", "residual") if found.factor is not None else ("residual",)
-    for heading in ("pressure, MPa", "measured", "model", "lowest", "highest", *fitted):
+    for heading in ("MPa", "measured", "model", "lowest", "highest", *fitted):
         table.add_column(heading, justify="right")
     table.add_column("inside")
     count = measured.value.size

@@ -1,0 +1,1 @@
+"""A comparison with measurements, as values, text and picture."""
