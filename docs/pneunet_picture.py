@@ -55,7 +55,7 @@ def draw(target: str, size: float = 5.0) -> None:
         )
         label = f"{1e3 * read.pressure_mpa:.0f} kPa, tip turned by {read.bending_angle_deg:.0f}°"
         plotter.add_text(label, position="upper_left", font_size=15, color="black")
-        plotter.camera_position = [(0, -125, 35), (30, 5, -2), (0, 0, 1)]
+        plotter.camera_position = [(2, -140, 38), (28, 5, -2), (0, 0, 1)]
     plotter.set_background("white", all_renderers=True)
     plotter.screenshot(target)
 

@@ -6,7 +6,9 @@ from pathlib import Path
 from typing import Any
 
 from bellows_design.design.design import Design, is_toml
+from bellows_design.errors import DesignError
 from bellows_design.files.toml_files import TomlLibrary
+from bellows_design.validation.quoting import quoted_path
 
 LIBRARY = TomlLibrary("design", "bellows_design.design", folder="designs")
 
@@ -29,6 +31,11 @@ def load_design(name_or_path: str | Path) -> Design:
             problem.
     """
     table, path = LIBRARY.named_or_at(name_or_path), LIBRARY.path_of(name_or_path)
+    if "parts" in table and "bellows" not in table:
+        raise DesignError(
+            f"{quoted_path(name_or_path)} is a body of one's own, which only evaluate takes; here "
+            "a design of bellows is needed."
+        )
     return Design.of(table if path is None else _with_files_from(path.parent, table))
 
 

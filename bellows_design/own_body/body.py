@@ -121,14 +121,14 @@ class OwnBody(BodyRecord):
 
     @property
     def table(self) -> dict[str, Any]:
-        """All but the solids, as JSON and TOML have it."""
-        return self.model_dump(mode="json", exclude_none=True)
+        """All but the solids and what is as by default, as JSON and TOML have it."""
+        return self.model_dump(mode="json", exclude_defaults=True)
 
     @property
     def digest(self) -> str:
         """SHA-256 of all that decides how it deforms, the solids too, as 64 hexadecimal digits."""
-        content = self.table
-        del content["name"], content["description"]
+        labels = ("name", "description")
+        content = {key: value for key, value in self.table.items() if key not in labels}
         shapes = [part.shape_digest for part in self.parts]
         text = json.dumps([content, shapes], sort_keys=True, allow_nan=False)
         return hashlib.sha256(text.encode("ascii")).hexdigest()

@@ -10,6 +10,9 @@ from bellows_design.errors import DesignError
 from bellows_design.files.atomic import replacing
 from bellows_design.files.guarded import read_file
 from bellows_design.files.toml_files import read_toml
+from bellows_design.materials.library import load_material, material_names
+from bellows_design.materials.library import written as written_material
+from bellows_design.materials.material import Material
 from bellows_design.own_body.body import OwnBody
 from bellows_design.own_body.step import solids_in, step_of
 from bellows_design.validation.quoting import quoted, quoted_path, quoted_reason
@@ -108,6 +111,14 @@ def write_body(body: OwnBody, path: Path) -> None:
         file = path.with_name(f"{path.stem}_{part.name}.step")
         with replacing(file) as temporary:
             temporary.write_bytes(step_of(part.solid))
-        written["step"] = file.name
+        written |= {"step": file.name, "material": _material(part.material)}
     with replacing(path) as temporary:
         temporary.write_text(tomli_w.dumps(table), "utf-8")
+
+
+def _material(material: Material) -> str | dict[str, Any]:
+    """A material of the library by its name, another one as its table."""
+    name = material.name
+    if name in material_names() and material == load_material(name):
+        return name
+    return written_material(material)

@@ -123,7 +123,12 @@ def _chosen(
     ]
     if selection.select is None:
         return left
-    found = _selector(selection.select).filter([faces[place].face for place in left])
+    try:
+        found = _selector(selection.select).filter([faces[place].face for place in left])
+    except (IndexError, ValueError) as error:  # such as <X[9] of three
+        raise DesignError(
+            f"surfaces.{name}: {quoted(selection.select)} chooses no face: {quoted_reason(error)}."
+        ) from None
     return [place for place in left if any(faces[place].face is each for each in found)]
 
 

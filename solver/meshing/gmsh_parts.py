@@ -23,6 +23,15 @@ from solver.meshing.gmsh_calls import (
     tetrahedra,
 )
 
+TOUCHING = 1e-5
+"""Gap or overlap, mm, below which faces coincide: CAD files are hardly more exact."""
+
+DIAGONALS = 10
+"""Gmsh makes no edge longer than the bounding box's diagonal over this."""
+
+USUAL_QUALITY = 0.3
+"""Gmsh's own least quality of elements, of which 1 is the best."""
+
 OUTSIDE = -1
 """In place of the number of a part: none."""
 
@@ -53,7 +62,7 @@ def meshed_parts(
     Raises ``Refusal`` and ``OtherFaces``.
     """
     with session() as gmsh:
-        gmsh.option.setNumber("Geometry.OCCBooleanPreserveNumbering", 0)
+        gmsh.option.setNumber("Geometry.ToleranceBoolean", TOUCHING)
         faces = [
             face for number, solid in enumerate(solids) for face in _faces(gmsh, number, solid)
         ]
@@ -61,7 +70,9 @@ def meshed_parts(
         pieces = sorted({piece for _, piece in sources})
         sides = _sides(gmsh, bodies, pieces)
         _check_connected(sides, [solid.name for solid in solids])
-        generate(gmsh, settings, field, _sizes(bodies, solids))
+        quality = _reachable(gmsh, bodies, solids, settings["Mesh.MeshSizeMax"])
+        tuned = {**settings, "Mesh.OptimizeThreshold": min(quality, USUAL_QUALITY)}
+        generate(gmsh, tuned, field, _sizes(bodies, solids))
         tags, tets, counts = tetrahedra(gmsh, bodies)
         places = [(face, pieces.index(piece)) for face, piece in sources]
         extent = {"sizes": counts, "sides": sides, "sources": np.array(places, np.int64)}
@@ -148,6 +159,23 @@ def _check_connected(sides: NDArray[np.int64], names: Sequence[str]) -> None:
             raise Refusal(
                 f"no face of the part {name!r} touches {others}, directly or through other parts"
             )
+
+
+def _reachable(gmsh: Any, bodies: Sequence[int], solids: Sequence[Solid], size: float) -> float:
+    """Quality that elements in the thinnest part may have: thickness over edges, at most.
+
+    Gmsh improves elements as long as some are worse than it is told, and takes a hundred times as
+    long where the thickness of a film keeps them so.
+    """
+    x0, y0, z0, x1, y1, z1 = gmsh.model.getBoundingBox(-1, -1)
+    edge = min(size, float(np.linalg.norm([x1 - x0, y1 - y0, z1 - z0])) / DIAGONALS)
+    ratios = []
+    for body, solid in zip(bodies, solids, strict=True):
+        faces = gmsh.model.getBoundary([(3, body)], combined=False, oriented=False)
+        area = sum(gmsh.model.occ.getMass(*face) for face in faces)
+        thickness = 2 * gmsh.model.occ.getMass(3, body) / area
+        ratios.append(thickness / min(edge, solid.size or edge))
+    return min(ratios)
 
 
 def _sizes(bodies: Sequence[int], solids: Sequence[Solid]) -> dict[int, float]:

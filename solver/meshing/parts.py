@@ -77,9 +77,10 @@ def mesh_solids(
 ) -> Mesh:
     """Mesh solids that touch, so that they share the nodes where they do.
 
-    Gmsh runs in a process of its own. Where faces of two parts coincide, wholly or partly, the
-    common piece becomes the surface ``"first|second"``, named in the order of the parts and
-    oriented out of the first. The surfaces with the names of faces have the pieces on the outside.
+    Gmsh runs in a process of its own. Where faces of two parts coincide within 1e-5 mm, wholly or
+    partly, the common piece becomes the surface ``"first|second"``, named in the order of the parts
+    and oriented out of the first. The surfaces with the names of faces have the pieces on the
+    outside.
 
     Args:
         parts: the solids, which must not overlap, and of which each must be connected to all

@@ -366,7 +366,7 @@ class Newton:
         return replace(moved, geometric_stress=stress)
 
     def with_membrane_stress(self, state: State, increment: State, moved: State) -> State:
-        """The same for the stress of membranes; ``moved`` itself without any."""
+        """``moved`` with the stress of its membranes only; itself if it has none."""
         films = self.assembly.films
         if films is None:
             return moved

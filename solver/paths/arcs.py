@@ -122,9 +122,10 @@ class Arcs:
         """The equilibrium that satisfies ``row``, predicted by a length along the tangent."""
         newton, here = self.newton, arc.equilibrium
         load = here.load + arc.slope * length
-        direction = newton.system.expanded(arc.tangent)
-        moved = newton.kinematics.advanced(here.state, direction, length)
-        return corrected(newton, newton.kinematics.with_motions(moved, load), load, row)
+        step = newton.system.expanded(arc.tangent).scaled(length)
+        there = newton.kinematics.with_motions(newton.kinematics.advanced(here.state, step), load)
+        guess = newton.with_membrane_stress(here.state, step, there)
+        return corrected(newton, guess, load, row)
 
     def _at_load(self, arc: Arc, load: float) -> Arc:
         length = (load - arc.load) / arc.slope

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from solver import Gradients, Mesh, Problem, Solution, SolverOptions, solve
+from solver import Gradients, Problem, Solution, SolverOptions, solve
 from solver.material.law import Hyperelastic
 from solver.sensitivity.responses import available
 from solver.sensitivity.smooth_peak import PeakRegion
@@ -20,7 +20,7 @@ TIGHT = SolverOptions(tolerance=1e-10, maximum_iterations=60)
 def moved(problem: Problem, step: Array) -> Problem:
     """The problem on a mesh whose nodes are moved by ``step`` (n, 3)."""
     mesh = problem.mesh
-    return replace(problem, mesh=Mesh(mesh.nodes + step, mesh.tets, mesh.surfaces))
+    return replace(problem, mesh=mesh.moved(mesh.nodes + step))
 
 
 def solved_near(problem: Problem, pressure: float, near: Solution) -> Solution:
@@ -76,13 +76,18 @@ def by_pressure(solution: Solution, found: Gradients, step: float) -> dict[str, 
 
 
 def by_material(
-    solution: Solution, found: Gradients, material: Callable[[float], Hyperelastic], step: float
+    solution: Solution,
+    found: Gradients,
+    material: Callable[[float], Hyperelastic],
+    step: float,
+    region: str | None = None,
 ) -> dict[str, float]:
-    """Derivatives by a parameter of the material, by solving with others."""
+    """Derivatives by a parameter of the material, or of a region's, by solving with others."""
     problem, pressure = solution.problem, solution.pressure
-    return difference(
-        lambda s: responses(
-            solved_near(replace(problem, material=material(s)), pressure, solution), found
-        ),
-        step,
-    )
+
+    def changed(by: float) -> Problem:
+        if region is None:
+            return replace(problem, material=material(by))
+        return replace(problem, materials={**problem.materials, region: material(by)})
+
+    return difference(lambda s: responses(solved_near(changed(s), pressure, solution), found), step)

@@ -99,7 +99,8 @@ def at_volume(newton: Newton, start: HeldVolume, wanted: float) -> HeldVolume:
     assert here.direction is not None
     change = (wanted - start.volume) / start.compliance
     step = newton.system.expanded(change * here.direction)
-    guess = newton.with_membrane_stress(here.state, step, newton.kinematics.advanced(here.state, step))
+    moved = newton.kinematics.advanced(here.state, step)
+    guess = newton.with_membrane_stress(here.state, step, moved)
 
     def row(state: State, equilibrium: Equilibrium, r: Reals, d: Reals) -> float:
         excess = volume_of(newton, state) - wanted

@@ -50,3 +50,8 @@ def test_options_of_bellows_are_refused_in_one_sentence(
 ) -> None:
     status, out, err = bellows("evaluate", file, *options)
     assert status == 2 and not out and sentence in err
+
+
+def test_other_commands_say_that_they_take_bellows_only(bellows: Bellows, file: str) -> None:
+    status, _, err = bellows("run", file)
+    assert status == 2 and "is a body of one's own, which only evaluate takes" in err

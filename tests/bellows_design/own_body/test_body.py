@@ -65,6 +65,7 @@ NAMED = {"root": "<X", "middle": "<Y", "cavity": INSIDE}
     [
         ({"surfaces": {"root": "<X", "cavity": "<Q"}}, "no selector of CadQuery's"),
         ({"surfaces": {**NAMED, "side": "<X"}}, "both choose the face at (0, 2.5, 5) mm"),
+        ({"surfaces": {**NAMED, "tip": "<X[9]"}}, "surfaces.tip: “<X[9]” chooses no face"),
         ({"surfaces": {**NAMED, "hole": {"inner": True}}}, "no face"),
         ({"surfaces": {**NAMED, "a": {"select": "<X", "part": "bod"}}}, "did you mean body?"),
         ({"supports": {"clamped": ["rot"]}}, "unknown surface “rot”; did you mean root?"),

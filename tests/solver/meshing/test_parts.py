@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from solver import Mesh
+from solver import Mesh, Ogden, Problem, Supports, reaction, solve
 from solver.errors import MeshingError
 from solver.mesh.elements import tetrahedron_rule, triangle_rule
 from solver.mesh.mid_nodes import SMALLEST_RATIO, jacobian_ratios
@@ -255,6 +255,45 @@ def test_one_part_is_a_mesh_with_one_region(tmp_path: Path) -> None:
     check_outside_is_watertight(mesh)
 
 
+def test_meshed_layers_bear_what_each_would_alone() -> None:
+    """Stretched to 1.5 times along the layers: homogeneous if both are incompressible."""
+    solids = {"soft": box((8, 1, 0.6), (0, 0, 0)), "stiff": box((8, 1, 0.4), (0, 0, 0.6))}
+    parts = [
+        Part(name, brep(solid), [side_of(face) for face in solid.Faces()])
+        for name, solid in solids.items()
+    ]
+
+    def motion(positions: Array, load: float) -> Array:
+        free = np.full(len(positions), np.nan)
+        return np.stack([load * 0.5 * positions[:, 0], free, free], axis=1)
+
+    supports = Supports(symmetry={"x0": 0, "y0": 1, "z0": 2}, prescribed={"x1": motion})
+    soft, stiff = Ogden.neo_hooke(1.0), Ogden.neo_hooke(30.0)
+    mesh = mesh_solids(parts, COARSE)
+    solution = solve(Problem(mesh, soft, supports, materials={"stiff": stiff}))
+    assert solution.converged, solution.message
+    expected = (1.0 * 0.6 + 30.0 * 0.4) * (1.5 - 1.5**-2)
+    assert reaction(solution, "x1").force[0] == pytest.approx(expected, rel=1e-6)
+
+
+@pytest.mark.parametrize("gap", [8e-6, -8e-6])
+def test_parts_touch_as_exactly_as_cad_files_are_written(gap: float) -> None:
+    boxes = box((4, 4, 2), (0, 0, 0)), box((3, 3, 1), (0.5, 0.5, 2 + gap))
+    mesh = mesh_solids([part(str(k), solid) for k, solid in enumerate(boxes)], COARSE)
+    assert area(mesh, "0|1") == pytest.approx(9, rel=1e-5)
+    check_outside_is_watertight(mesh)
+
+
+def test_a_film_much_thinner_than_its_elements_is_meshed() -> None:
+    """0.1 mm under edges of 2 mm, between two blocks: no better elements are possible there."""
+    layers = {"low": (0, 3), "film": (3, 0.1), "high": (3.1, 3)}
+    parts = [part(name, box((16, 12, h), (0, 0, z))) for name, (z, h) in layers.items()]
+    mesh = mesh_solids(parts, COARSE)
+    assert volume(mesh, "film") == pytest.approx(16 * 12 * 0.1, rel=1e-9)
+    assert jacobian_ratios(mesh.nodes, mesh.tets).min() >= SMALLEST_RATIO
+    check_outside_is_watertight(mesh)
+
+
 CUBE = box((2, 2, 2), (0, 0, 0))
 
 
@@ -263,7 +302,7 @@ CUBE = box((2, 2, 2), (0, 0, 0))
     [
         ([CUBE, box((2, 2, 2), (1, 0, 0))], "'0' and '1' overlap in 4 mm"),
         ([CUBE, box((1, 1, 1), (0.5, 0.5, 0.5))], "'0' and '1' overlap in 1 mm"),
-        ([CUBE, box((2, 2, 2), (3, 0, 0))], "no face of the part '1' touches '0'"),
+        ([CUBE, box((2, 2, 2), (2.001, 0, 0))], "no face of the part '1' touches '0'"),
         ([CUBE, box((2, 2, 2), (2, 2, 0))], "no face of the part '1' touches '0'"),  # an edge
         (
             [

@@ -17,11 +17,12 @@ WEIGHT = 1000 * 9.80665 * 1e-9
 """N/mm³ of 1000 kg/m³."""
 
 
-def column(*parts: dict[str, object]) -> OwnBody:
+def column(*parts: dict[str, object], films: tuple[dict[str, object], ...] = ()) -> OwnBody:
     """A quarter of a column that hangs from its upper end, free to become thinner."""
-    surfaces = {"top": ">Z", "tip": "<Z", "x": "<X", "y": "<Y"}
+    surfaces = {"top": ">Z", "tip": "<Z", "x": "<X", "y": "<Y", "sides": [">X", ">Y"]}
     return OwnBody.of(
         {"name": "column", "parts": list(parts), "surfaces": surfaces, "gravity": {},
+         "films": list(films),
          "supports": {"clamped": [], "symmetry": {"top": "z", "x": "x", "y": "y"}},
          "mesh": {"size": 4.0}}
     )  # fmt: skip
@@ -34,6 +35,21 @@ def test_a_column_becomes_longer_by_its_weight_as_hooke_says() -> None:
     assert down == pytest.approx(-WEIGHT * 20**2 / 2 / (3 * MU), rel=3e-3)
     assert found.end.bending_angle_deg == pytest.approx(0, abs=1e-6)
     assert found.end.cavity_volume_mm3 is None and found.end.contact_force_n is None
+
+
+def test_films_on_a_column_bear_their_part_of_its_weight() -> None:
+    """As stiff as the column together, and contracting like it: half of the elongation is left.
+
+    The weight of the rubber gets to the films by shear, which adds less than a hundredth.
+    """
+    area, perimeter = 2.0 * 2.0, 2.0 + 2.0
+    thickness = 0.1
+    modulus = 3 * MU * area / (perimeter * thickness)
+    film = {"surface": "sides", "young_modulus": modulus, "poisson_ratio": 0.5,
+            "thickness": thickness}  # fmt: skip
+    found = evaluated(column(part(box(2, 2, 20), density_kg_m3=1000.0), films=(film,)), meshes=1)
+    _, _, down = found.end.tip_displacement_mm or ()
+    assert down == pytest.approx(-WEIGHT * 20**2 / 2 / (6 * MU), rel=1e-2)
 
 
 def test_a_column_of_two_materials_becomes_longer_part_by_part() -> None:
