@@ -154,7 +154,7 @@ class Assembly:
             assemble_plane(
                 self._solid, self.layout.at_plane, self.plane.heights(state), state.plane[0],
                 *self.layout.plane, displacement, state.hydrostatic_pressure,
-                tangent, residual, values, jacobians,
+                self._geometric(state), tangent, residual, values, jacobians,
             )  # fmt: skip
         return float(jacobians.min(initial=np.inf))
 
@@ -182,7 +182,7 @@ class Assembly:
     def extrapolated_stress(self, state: State, increment: State) -> Reals:
         """Stress after an increment from a state, to first order: a ``State.geometric_stress``.
 
-        For problems without a moving plane.
+        On a moving plane too the increment's displacements are those of the nodes.
         """
         stress = np.empty((len(self.problem.mesh.tets), len(self._solid.weights), 6))
         extrapolated_stress(

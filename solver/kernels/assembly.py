@@ -8,7 +8,7 @@ import numpy as np
 from numba import prange
 
 from solver.arrays import Integers, Reals
-from solver.kernels.element import UNKNOWNS, Solid, element_energy, element_response
+from solver.kernels.element import UNKNOWNS, Solid, element_energy, element_response, stress_forces
 from solver.kernels.moving_plane import to_plane_unknowns
 from solver.kernels.scatter import mirror_upper, scatter
 from solver.numerics.compiled import compiled
@@ -132,6 +132,7 @@ def assemble_plane(
     entries: Integers,
     displacement: Reals,
     pressure: Reals,
+    geometric: Reals,
     tangent: bool,
     residual: Reals,
     values: Reals,
@@ -145,20 +146,24 @@ def assemble_plane(
     x = np.empty((10, 3))
     u = np.empty((10, 3))
     q = np.empty(4)
-    own_stress = np.empty((0, 6))
     r = np.empty(UNKNOWNS + 2)
+    of_geometric = np.empty(UNKNOWNS + 2)
     k = np.zeros((UNKNOWNS + 2, UNKNOWNS + 2))
     for row in range(elements.size):
         element = elements[row]
         gather(solid, element, displacement, pressure, x, u, q)
         jacobians[element] = element_response(
-            solid, solid.material_of[element], x, u, q, own_stress, tangent, r, k
+            solid, solid.material_of[element], x, u, q, geometric[element], tangent, r, k
         )
         mirror_upper(k)
+        forces = r
+        if geometric.shape[1] > 0:
+            forces = of_geometric
+            stress_forces(solid, x, u, geometric[element], forces)
         for a in range(10):
             height = heights[solid.tets[element, a]]
             if not np.isnan(height):
-                to_plane_unknowns(r, k, a, height, tilt)
+                to_plane_unknowns(r, k, forces, a, height, tilt)
         scatter(r, k, dofs[row], entries[row], 1.0, tangent, residual, values)
 
 

@@ -160,7 +160,7 @@ def assemble_contact(
         mirror_upper(k)
         for a in range(6):
             if not np.isnan(heights[nodes[a]]):
-                to_plane_unknowns(r, k, a, heights[nodes[a]], tilt)
+                to_plane_unknowns(r, k, r, a, heights[nodes[a]], tilt)
         scatter(r, k, face.dofs[triangle], entries[triangle], 1.0, tangent, residual, values)
 
 

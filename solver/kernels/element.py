@@ -203,10 +203,7 @@ def element_response(
             law, logs, b, -pressure * jacobian, constants, stress, normal, shear,
         )  # fmt: skip
         to_global_axes(vectors, stress, normal, shear, tau, stiffness)
-        for a in range(10):
-            r[3 * a] += dv * (tau[0] * g[a, 0] + tau[3] * g[a, 1] + tau[5] * g[a, 2])
-            r[3 * a + 1] += dv * (tau[3] * g[a, 0] + tau[1] * g[a, 1] + tau[4] * g[a, 2])
-            r[3 * a + 2] += dv * (tau[5] * g[a, 0] + tau[4] * g[a, 1] + tau[2] * g[a, 2])
+        _add_forces(g, tau, dv, r)
         swelling, flexibility = volume_law(pressure, compliance, logarithmic)
         for v in range(4):
             r[30 + v] -= dv * solid.linear[point, v] * (change - swelling)
@@ -216,6 +213,34 @@ def element_response(
             _add_displacement_tangent(g, tau, stiffness, dv, k)
             _add_pressure_tangent(g, solid.linear[point], dv * jacobian, dv * flexibility, k)
     return smallest
+
+
+@compiled()
+def stress_forces(solid: Solid, x: Reals, u: Reals, geometric: Reals, forces: Reals) -> None:
+    """First 30 of ``forces`` (m,): nodal forces of a second Piola-Kirchhoff stress, the rest 0.
+
+    ``x``, ``u`` (10, 3) and ``geometric`` (points, 6) as for ``element_response``.
+    """
+    gradients, h, f = np.empty((10, 3)), np.empty((3, 3)), np.empty((3, 3))
+    inverse, g, tau = np.empty((3, 3)), np.empty((10, 3)), np.empty(6)
+    forces[:] = 0.0
+    for point in range(solid.weights.size):
+        dv = solid.weights[point] * reference_gradients(x, solid.gradients[point], gradients)
+        displacement_gradient(u, gradients, h)
+        deformation_gradient(h, f)
+        invert(f, inverse)
+        spatial_gradients(gradients, inverse, g)
+        push_forward(f, geometric[point], tau)
+        _add_forces(g, tau, dv, forces)
+
+
+@compiled()
+def _add_forces(g: Reals, tau: Reals, dv: float, r: Reals) -> None:
+    """Nodal forces of a Kirchhoff stress at one point."""
+    for a in range(10):
+        r[3 * a] += dv * (tau[0] * g[a, 0] + tau[3] * g[a, 1] + tau[5] * g[a, 2])
+        r[3 * a + 1] += dv * (tau[3] * g[a, 0] + tau[1] * g[a, 1] + tau[4] * g[a, 2])
+        r[3 * a + 2] += dv * (tau[5] * g[a, 0] + tau[4] * g[a, 1] + tau[2] * g[a, 2])
 
 
 @compiled()

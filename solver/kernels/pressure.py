@@ -158,7 +158,7 @@ def assemble_volume(
         volume_response(facets, facets.nodes[nodes] + displacement[nodes], f, k)
         for a in range(6):
             if not np.isnan(heights[nodes[a]]):
-                to_plane_unknowns(f, k, a, heights[nodes[a]], tilt)
+                to_plane_unknowns(f, k, f, a, heights[nodes[a]], tilt)
         scatter(
             f, k, facets.dofs[triangle], facets.entries[triangle], pressure, tangent, force, values
         )
