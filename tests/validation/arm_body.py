@@ -38,7 +38,7 @@ ROOMS = ("pressed", "beside", "opposite")
 
 @dataclass(frozen=True)
 class Section:
-    """The section x = 0 in triangles: corners (n, 2) as (y, z), triangles (k, 3), their parts (k,)."""
+    """The section x = 0: corners (n, 2) as (y, z), triangles (k, 3), their parts (k,)."""
 
     corners: Reals
     triangles: Integers
@@ -121,9 +121,7 @@ def half_arm(size: float, windings: int, filled: bool) -> Mesh:
     used, numbers = np.unique(np.concatenate(tets), return_inverse=True)
     mesh = quadratic_mesh(points[used], numbers.reshape(-1, 4).astype(np.int32), labels, rounded)
     return mesh.with_surfaces(
-        {
-            f"{name} thread": wound(mesh, name, at, thread) for name in ("skin", "pressed")
-        }
+        {f"{name} thread": wound(mesh, name, at, thread) for name in ("skin", "pressed")}
     )
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from functools import partial
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -36,21 +37,18 @@ SURFACES = {"top": "z1", "left": "y1", "right": "y1"}
 
 def half_beam(cell: float) -> Mesh:
     """The half y > 0 of the beam along x, held at x0; lines of the mesh bound the markers' feet."""
-    along, across = (
-        np.concatenate([part[:-1], np.linspace(part[-1], end, 1 + round(FOOT / cell))])
-        if ascending
-        else np.concatenate([np.linspace(0, FOOT, 1 + round(FOOT / cell)), part[1:]])
-        for part, end, ascending in (
-            (_line(0, LENGTH - FOOT, cell), LENGTH, True),
-            (_line(FOOT, WIDTH / 2, cell), WIDTH / 2, False),
-        )
-    )
-    lines = [along, across, np.linspace(0, HEIGHT, 1 + round(HEIGHT / cell))]
+    pieces = ((0, LENGTH - FOOT, LENGTH), (0, FOOT, WIDTH / 2), (0, 12, 18, HEIGHT))
+    lines = [_lines(at, cell) for at in pieces]
     return cell_mesh(np.ones([len(line) - 1 for line in lines], int), lines)
 
 
-def _line(start: float, end: float, cell: float) -> Reals:
-    return np.linspace(start, end, 1 + math.ceil((end - start) / cell - 1e-9))
+def _lines(ends: Sequence[float], cell: float) -> Reals:
+    """Lines of cells of at most that size, mm, in each piece between the ends."""
+    parts = [
+        np.linspace(start, end, 1 + math.ceil((end - start) / cell - 1e-9))[1:]
+        for start, end in pairwise(ends)
+    ]
+    return np.concatenate([[ends[0]], *parts]).astype(float)
 
 
 def silicone(young_modulus: float, poisson_ratio: float) -> Ogden:
@@ -80,7 +78,7 @@ def loaded(sagged: Solution) -> tuple[Solution, ...]:
 def edge_load(mesh: Mesh, force: float) -> tuple[PointForce, ...]:
     """A force down, N, spread evenly along the edge x = LENGTH, z = HEIGHT of quadratic elements.
 
-    A quadratic edge of length l carries l/6 of the load per length at its ends, 2 l/3 in its middle.
+    A quadratic edge of length l carries l/6 of the load per length at its ends, 2 l/3 between.
     """
     edge = np.flatnonzero((mesh.nodes[:, [0, 2]] == [LENGTH, HEIGHT]).all(axis=1))
     edge = edge[np.argsort(mesh.nodes[edge, 1])]
@@ -189,14 +187,13 @@ RATIO = DATA["poisson_ratio"]
 CASE = Case(
     "B. A silicone beam under its weight and a load at its tip",
     {
-        **{on_cells(NEARLY, cell): partial(predicted, cell, RATIO) for cell in CELLS[:3]},
+        **{on_cells(NEARLY, cell): partial(predicted, cell, RATIO) for cell in CELLS},
         **{
             on_cells(f"run {run + 1} alone", SEVERAL): partial(predicted, SEVERAL, RATIO, (run,))
             for run in (0, 1)
         },
         on_cells(INCOMPRESSIBLE, SEVERAL): partial(predicted, SEVERAL, 0.5),
-        on_cells(AUTHORS, SEVERAL): partial(as_the_authors, SEVERAL),
-        on_cells(NEARLY, CELLS[3]): partial(predicted, CELLS[3], RATIO),
+        on_cells(AUTHORS, CELLS[2]): partial(as_the_authors, CELLS[2]),
     },
     report,
     sample=on_cells(NEARLY, CELLS[0]),

@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "support"))
+sys.path.insert(0, str(Path(__file__).parents[1] / "benchmarks"))
 
 from printed import document, report
 from stored import DOCUMENT, all_cases, results_of

@@ -78,7 +78,8 @@ def _rows(rows: Sequence[Row]) -> str:
 
 
 def _further(table: Table) -> str:
-    return f"{table.title}\n\n{_table(table.heading, table.lines)}"
+    title = f"{table.title}\n\n" if table.title else ""
+    return title + _table(table.heading, table.lines)
 
 
 def _table(heading: Sequence[str], lines: Sequence[Sequence[str]]) -> str:
@@ -91,11 +92,11 @@ def _line(cells: Sequence[str]) -> str:
 
 
 def interval(values: Interval, unit: str = "") -> str:
-    """Two numbers, or one, with as many digits as tell them apart, at least three."""
+    """Two numbers, or one, with three significant digits of the larger one."""
     low, high = values
+    if math.isinf(high):
+        return f"from {interval((low, low), unit)} on"
     scale = max(abs(low), abs(high))
-    if scale == 0:
-        return f"0 {unit}".rstrip()
-    decimals = max(0, 2 - math.floor(math.log10(scale)))
+    decimals = max(0, 2 - math.floor(math.log10(scale))) if scale else 0
     first, second = (f"{value:.{decimals}f}".replace("-", "−") for value in values)
     return f"{first if first == second else f'{first} … {second}'} {unit}".rstrip()

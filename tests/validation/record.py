@@ -127,6 +127,7 @@ class Case:
             one in ``case_NAME.json``.
         report: makes the section from the stored results.
         sample: name of the cheap computation that tests repeat; "" if nothing is computed.
+        slow: whether that takes more than some two seconds.
         tolerance: relative, between a repeated reading and the stored one. Where Gmsh makes the
             mesh, another version makes another one.
         draw: draws ``Report.figure`` into a file of that path, from the stored results.
@@ -136,5 +137,6 @@ class Case:
     computations: Mapping[str, Callable[[], Computed]]
     report: Callable[[Results], Report]
     sample: str = ""
+    slow: bool = False
     tolerance: float = 1e-4
     draw: Callable[[Results, str], None] | None = None
