@@ -33,7 +33,6 @@ DEPTH = LENGTH - DATA["end_mm"]
 SIDE = np.sqrt(2) * INNER_WALL  # of a wall at 45 degrees, along y
 SLAB, FAR = 4.0, 2 * RADIUS
 THREAD = 0.4  # mm, width of a winding
-ROOMS = ("pressed", "beside", "opposite")
 
 
 @dataclass(frozen=True)
@@ -104,15 +103,15 @@ def layers(windings: int) -> tuple[Reals, Reals]:
     return at, thread
 
 
-def half_arm(size: float, windings: int, filled: bool) -> Mesh:
-    """The half arm; ``filled``: the core is solid, not a hole from the base to the end.
+def half_arm(size: float, windings: int) -> Mesh:
+    """The half arm, its core solid.
 
     Surfaces base, tip, symmetry, skin, inside; the chambers by their names; and below the thread
     ``skin thread`` and ``pressed thread``, parts of skin and pressed chamber.
     """
     plan = section(size)
     at, thread = layers(windings)
-    solid = np.isin(plan.parts, ["walls", "core"] if filled else ["walls"])
+    solid = np.isin(plan.parts, ["walls", "core"])
     tets, count = [], len(plan.corners)
     for layer in range(len(at) - 1):
         kept = plan.triangles if layer == len(at) - 2 else plan.triangles[solid]

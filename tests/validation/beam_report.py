@@ -179,8 +179,9 @@ def _of_the_ratio(results: Results) -> str:
     changes = [down(other, 2, marker) / down(ours, 2, marker) - 1 for marker in MARKERS]
     moduli = other["young_modulus_mpa"] / ours["young_modulus_mpa"] - 1
     return (
-        f"Incompressible silicone instead of ν = 0.499 changes the modulus by {100 * moduli:+.2f} "
-        f"%, and the deflections under 1 N by at most {100 * max(map(abs, changes)):.2f} %."
+        f"Incompressible silicone instead of ν = 0.499 changes the modulus by "
+        f"{100 * abs(moduli):.2f} %, and deflections under 1 N by at most "
+        f"{100 * max(map(abs, changes)):.2f} %."
     )
 
 

@@ -23,17 +23,16 @@ def silicone() -> Ogden:
     return Ogden((young / 2 / (1 + ratio),), (2.0,), young / 3 / (1 - 2 * ratio))
 
 
-def bent(wound: str, filled: bool, size: float, windings: int, most: float = math.inf) -> Computed:
+def bent(wound: str, size: float, windings: int, most: float = math.inf) -> Computed:
     """Hung up, then blown up to 45 kPa in steps; what was reached of them.
 
     Args:
         wound: surface with a thread around it, or "" for none.
-        filled: whether the core is solid.
         size: of the section's triangles, mm.
         windings: of the thread, and layers along the arm.
         most: kPa, up to which pressure.
     """
-    mesh = half_arm(size, windings, filled)
+    mesh = half_arm(size, windings)
     weight = DATA["density_kg_m3"] * DATA["gravity_m_s2"] * 1e-9
     supports = Supports(clamped=("base",), symmetry={"symmetry": 1})
     given = {
@@ -77,8 +76,8 @@ def tip(hung: Solution, state: Solution) -> float:
 CASE = Case(
     "C. One chamber of a silicone arm",
     {
-        **{on_mesh(name, COARSE): partial(bent, *READINGS[name], *COARSE) for name in READINGS},
-        SAMPLE: partial(bent, *READINGS[FREE], 9.0, 3, 10.0),
+        **{on_mesh(name, COARSE): partial(bent, READINGS[name], *COARSE) for name in READINGS},
+        SAMPLE: partial(bent, READINGS[FREE], 9.0, 3, 10.0),
     },
     report,
     sample=SAMPLE,
