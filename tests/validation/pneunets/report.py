@@ -272,10 +272,10 @@ def unknown() -> str:
         "here, and its force grows from the first kPa on; the measured one begins near 30 kPa, as "
         "if the plate stood a few degrees away, which the scripts foresee (`dist_to_force`) and "
         "the data do not state; nor do they say whether the chamber nearest to the clamp is there. "
-        "The first computed force, 1 N at 2 kPa, where the whole pad lies flat on the plate, is not "
-        "explained and counts nowhere. *Not computed*: c7-w7 beyond 29 kPa and with Yeoh's law, "
-        "forces of c7-w7 and c5-w10, forces with Yeoh's law, plates that stand away. Paths end where "
-        "Newton's method found no equilibrium or where they were stopped, see *Effort*."
+        "The first computed force, 1 N at 2 kPa, where the whole pad lies flat on the plate, is "
+        "not explained and counts nowhere. *Not computed*: c7-w7 beyond 29 kPa and with Yeoh's "
+        "law, forces of c7-w7 and c5-w10, forces with Yeoh's law, plates that stand away. Paths "
+        "end where Newton's method found no equilibrium or where they were stopped, see *Effort*."
     )
 
 
