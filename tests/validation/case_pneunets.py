@@ -26,7 +26,5 @@ CASE = Case(
     "A. Silicone bending actuators with a film",
     {name: partial(computed, setup) for name, setup in all_setups().items()},
     report,
-    sample="sample",
-    tolerance=0.03,
     draw=draw,
 )

@@ -52,7 +52,7 @@ KNEE_FROM = 3.0
 
 
 def computed_curve(readings: Mapping[str, Sequence[float]], quantity: str) -> Curve:
-    """Through the equilibria of a path, as a function of the volume; angles are zero at ``ZERO``."""
+    """Through the equilibria of a path, over the volume; angles are zero at ``ZERO``."""
     volume = np.log(readings["volume_mm3"])
     fine = np.linspace(volume[0], volume[-1], POINTS)
     pressure = CubicSpline(volume, readings["pressure_kpa"])(fine)

@@ -6,12 +6,14 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+from record import Results
+
 from pneunets.features import Curve
 from pneunets.report import DATA, SECOND, blocked, free
 from pneunets.setups import BODIES, MATERIALS
-from record import Results
 
 OURS, MEASURED, AGAIN = "#1f5f99", "black", "#b0563c"
+MEMBRANES = {"membrane under 0.5 mm": "--", "membrane under 0.5 mm, finer mesh": ":"}
 READINGS = {0: ("#1f5f99", "all chambers"), 1: ("#8a5fa8", "none at the clamp")}
 
 
@@ -37,12 +39,15 @@ def draw_angles(axes: Any, results: Results, body: str) -> None:
         again = np.array(SECOND["bending_angle_deg"]) - SECOND["bending_angle_deg"][0] + first
         axes.plot(SECOND["pressure_kpa"], again, "x", color=AGAIN, ms=5)
         axes.lines[-1].set_label("measured again, as at 20 kPa")
-    band(axes, [free(results, f"{body}, {material}") for material in MATERIALS], OURS)
-    axes.lines[-1].set_label("Ogden, Yeoh")
-    name = f"{body}, finer mesh"
-    if name in results:
-        fine = free(results, name)
-        axes.plot(fine.pressure, fine.value, ":", color=OURS, lw=1.2, label="Ogden, finer mesh")
+    names = [f"{body}, {material}" for material in MATERIALS]
+    band(axes, [free(results, name) for name in names if name in results], OURS)
+    axes.lines[-1].set_label("between Yeoh and Ogden")
+    if body == "c5-w7":
+        for name, style in MEMBRANES.items():
+            other = free(results, f"c5-w7, {name}")
+            axes.plot(
+                other.pressure, other.value, style, color=OURS, lw=1.0, label=f"Ogden, {name}"
+            )
     highest = 1.35 * max(table["bending_angle_deg"])
     finish(axes, body, "bending angle, degrees", table["pressure_kpa"], highest)
 

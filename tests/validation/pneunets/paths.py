@@ -71,7 +71,7 @@ class Setup:
         far: largest edges, mm.
         weight: direction of gravity; none by default.
         plate: whether a frictionless plate lies under the end of the body.
-        gap: angle by which the plate leans away from the body, about the edge of the clamp, degrees.
+        gap: angle by which the plate leans away from the body, about the clamp, degrees.
         highest: pressure at which the path may end, kPa.
     """
 
@@ -105,7 +105,9 @@ class Setup:
         film = self.film
         if self.body.film:
             mu = film.young_modulus / 2 / (1 + film.poisson_ratio)
-            return {"materials": {"film": Ogden.neo_hooke(mu, bulk_modulus(mu, film.poisson_ratio))}}
+            return {
+                "materials": {"film": Ogden.neo_hooke(mu, bulk_modulus(mu, film.poisson_ratio))}
+            }
         membrane = Membrane("bottom", film.young_modulus, film.poisson_ratio, film.thickness)
         return {"membranes": (membrane,)}
 

@@ -17,7 +17,7 @@ BODIES = {
 
 MATERIALS = {"Ogden": ogden(), "Yeoh": yeoh()}
 
-COARSE, FINE, SAMPLE = (3.0, 6.0), (2.0, 4.0), (4.0, 8.0)
+COARSE, FINE = (3.0, 6.0), (2.0, 4.0)
 """Edges at the chambers and elsewhere, mm."""
 
 THIN, STIFF = 0.2, 200.0
@@ -25,7 +25,7 @@ THIN, STIFF = 0.2, 200.0
 percent, and bends by less than a hundredth of the body's stiffness."""
 
 MEMBRANE = Film(82.0)
-"""A fiftieth of the published stiffness: with more the film, pressed together, folds on the mesh."""
+"""A fiftieth of the published stiffness: a stiffer one, pressed together, folds on the mesh."""
 
 
 def setup(body: str, material: str, mesh: tuple[float, float] = COARSE) -> Setup:
@@ -42,37 +42,22 @@ def with_membrane(given: Setup, film: Film = MEMBRANE, layer: float = 0.5) -> Se
     return replace(given, body=replace(given.body, layer=layer, film=0.0), film=film)
 
 
-BASE = setup("c5-w7", "Ogden")
-
-
-def with_body(**changes: float | bool) -> Setup:
-    """The base with another body."""
-    return replace(BASE, body=replace(BASE.body, **changes))  # type: ignore[arg-type]
+BASE = replace(setup("c5-w7", "Ogden"), highest=26.0)
+"""Up to where slopes are compared."""
 
 
 VARIANTS: Mapping[str, Setup] = {
-    "material 15 % softer": replace(BASE, material=ogden(stiffness=0.85)),
     "weight, hanging": replace(BASE, weight=(1.0, 0.0, 0.0)),
-    "weight, standing": replace(BASE, weight=(-1.0, 0.0, 0.0)),
-    "weight, film below": replace(BASE, weight=(0.0, 0.0, -1.0)),
-    "weight, film above": replace(BASE, weight=(0.0, 0.0, 1.0)),
-    "Poisson's ratio 0.45": replace(BASE, material=ogden(0.45)),
-    "Poisson's ratio 0.499": replace(BASE, material=ogden(0.499)),
-    "inlet open": with_body(inlet_open=True),
-    "film half as stiff": replace(BASE, film=Film(STIFF / 2, thickness=THIN)),
-    "film twice as stiff": replace(BASE, film=Film(STIFF * 2, thickness=THIN)),
-    "0.5 mm of silicone above the film": with_body(layer=0.5),
-    "membrane under 0.5 mm": with_membrane(BASE),
-    "membrane under 0.5 mm, half as stiff": with_membrane(BASE, Film(41.0)),
-    "membrane under 0.5 mm, finer mesh": with_membrane(setup("c5-w7", "Ogden", FINE)),
+    "membrane under 0.5 mm": replace(with_membrane(BASE), highest=38.6),
+    "membrane under 0.5 mm, half as stiff": replace(with_membrane(BASE, Film(41.0)), highest=36.8),
+    "membrane under 0.5 mm, finer mesh": replace(
+        with_membrane(setup("c5-w7", "Ogden", FINE)), highest=36.5
+    ),
 }
 """One change each of c5-w7, Ogden."""
 
 CLAMP = 5.0
 """Length of the body in the clamp where the force was measured, mm."""
-
-GAPS = (10.0, 20.0)
-"""Of the plate, degrees."""
 
 
 def force_setup(body: str, material: str, missing: int, gap: float = 0.0) -> Setup:
@@ -82,21 +67,25 @@ def force_setup(body: str, material: str, missing: int, gap: float = 0.0) -> Set
     return replace(free, body=longer, plate=True, gap=gap, highest=BODIES[body][2])
 
 
+FREE = (
+    ("c5-w7", "Ogden"),
+    ("c5-w7", "Yeoh"),
+    ("c7-w7", "Ogden"),
+    ("c5-w10", "Ogden"),
+    ("c5-w10", "Yeoh"),
+)
+"""Bodies and materials of which the angle is computed."""
+
+FORCED = (("c5-w7", "Ogden", 0), ("c5-w7", "Ogden", 1))
+"""Bodies, materials and missing chambers of which the force is computed."""
+
+
 def all_setups() -> dict[str, Setup]:
     """Name of a computation -> setup."""
-    found = {
-        f"{body}, {material}": setup(body, material) for body in BODIES for material in MATERIALS
-    }
-    found["c5-w7, finer mesh"] = setup("c5-w7", "Ogden", FINE)
+    found = {f"{body}, {material}": setup(body, material) for body, material in FREE}
     found |= {f"c5-w7, {name}": changed for name, changed in VARIANTS.items()}
     found |= {
         f"force {body}, {material}, {missing} missing": force_setup(body, material, missing)
-        for body in BODIES
-        for material in MATERIALS
-        for missing in (0, 1)
+        for body, material, missing in FORCED
     }
-    found |= {
-        f"force c5-w7, plate at {gap:g}°": force_setup("c5-w7", "Ogden", 0, gap) for gap in GAPS
-    }
-    found["sample"] = replace(setup("c5-w7", "Ogden", SAMPLE), highest=1.0)
     return found

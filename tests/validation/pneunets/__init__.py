@@ -1,0 +1,1 @@
+"""Case A: silicone bending actuators with a film."""
