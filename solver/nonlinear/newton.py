@@ -378,8 +378,8 @@ class Newton:
         """The same for membranes and stiff regions only; ``moved`` itself without any."""
         films = self.assembly.films
         if films is not None:
-            stress = films.extrapolated_stress(state, increment)
-            moved = replace(moved, membrane_stress=stress)
+            strain = films.extrapolated_strain(state, increment)
+            moved = replace(moved, membrane_strain=strain)
         if not self.stiffened:
             return moved
         stress = self.assembly.extrapolated_stress(state, increment)

@@ -19,14 +19,19 @@ class Membrane:
     """A film glued to a surface: it resists stretching, and bends without any resistance.
 
     Its stress is plane and linear in its Green strain (St. Venant and Kirchhoff's law), so that it
-    is for films that stretch little, however much they bend and turn. A film that is pressed
-    together bears the compression; a real one wrinkles (``membrane_forces`` says where).
+    is for films that stretch little, however much they bend and turn. It bears tension only: where
+    it is pressed together it wrinkles, and its strain and stress are means over the wrinkles
+    (tension field). With ``wrinkles=False`` it bears compression too, as far as the body under it
+    keeps its stability (``membrane_forces`` says where).
 
     Attributes:
         surface: name of the surface, outer or within the body.
         young_modulus: MPa.
         poisson_ratio: above -1, up to 0.5.
         thickness: of the undeformed film, mm.
+        wrinkles: whether it wrinkles instead of bearing compression.
+        compression_share: of its stiffness, with which a film that wrinkles still bears
+            compression; a little eases convergence where much of a stiff film is slack.
 
     Raises:
         SolverError: a number that is not one, or out of its bounds.
@@ -36,9 +41,17 @@ class Membrane:
     young_modulus: float
     poisson_ratio: float
     thickness: float
+    wrinkles: bool = True
+    compression_share: float = 0.0
 
     def __post_init__(self) -> None:
         check_instance("membranes: surface", self.surface, str)
+        check_instance("membranes: wrinkles", self.wrinkles, bool)
+        check_number("membranes: compression_share", share := self.compression_share)
+        if not 0 <= share <= 1:
+            raise SolverError(
+                f"membranes: compression_share = {share:g} must be at least 0 and at most 1."
+            )
         for name, unit in (("young_modulus", " MPa"), ("poisson_ratio", ""), ("thickness", " mm")):
             check_number(f"membranes: {name}", value := getattr(self, name))
             if name == "poisson_ratio" and not -1 < value <= 0.5:

@@ -105,8 +105,11 @@ class Setup:
         film = self.film
         if self.body.film:
             mu = film.young_modulus / 2 / (1 + film.poisson_ratio)
-            return {"materials": {"film": Ogden.neo_hooke(mu, bulk_modulus(mu, film.poisson_ratio))}}
-        membrane = Membrane("bottom", film.young_modulus, film.poisson_ratio, film.thickness)
+            return {
+                "materials": {"film": Ogden.neo_hooke(mu, bulk_modulus(mu, film.poisson_ratio))}
+            }
+        constants = film.young_modulus, film.poisson_ratio, film.thickness
+        membrane = Membrane("bottom", *constants, wrinkles=False)
         return {"membranes": (membrane,)}
 
     def _middles(self) -> list[float]:
