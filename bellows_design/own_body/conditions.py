@@ -75,8 +75,6 @@ class Film(BodyRecord):
         poisson_ratio: Below 0.5, or 0.5 of an incompressible film.
         thickness: mm.
         wrinkles: Whether it wrinkles where it is pressed together, instead of bearing compression.
-        compression_share: Of its stiffness, with which a film that wrinkles still bears
-            compression.
     """
 
     surface: str
@@ -84,7 +82,6 @@ class Film(BodyRecord):
     poisson_ratio: float = Field(default=0.3, gt=-1, le=0.5)
     thickness: float = Field(gt=0, le=100, json_schema_extra={"unit": "mm"})
     wrinkles: bool = True
-    compression_share: float = Field(default=0.0, ge=0, le=1)
 
 
 class Gravity(BodyRecord):

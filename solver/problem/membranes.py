@@ -30,8 +30,6 @@ class Membrane:
         poisson_ratio: above -1, up to 0.5.
         thickness: of the undeformed film, mm.
         wrinkles: whether it wrinkles instead of bearing compression.
-        compression_share: of its stiffness, with which a film that wrinkles still bears
-            compression; a little eases convergence where much of a stiff film is slack.
 
     Raises:
         SolverError: a number that is not one, or out of its bounds.
@@ -42,16 +40,10 @@ class Membrane:
     poisson_ratio: float
     thickness: float
     wrinkles: bool = True
-    compression_share: float = 0.0
 
     def __post_init__(self) -> None:
         check_instance("membranes: surface", self.surface, str)
         check_instance("membranes: wrinkles", self.wrinkles, bool)
-        check_number("membranes: compression_share", share := self.compression_share)
-        if not 0 <= share <= 1:
-            raise SolverError(
-                f"membranes: compression_share = {share:g} must be at least 0 and at most 1."
-            )
         for name, unit in (("young_modulus", " MPa"), ("poisson_ratio", ""), ("thickness", " mm")):
             check_number(f"membranes: {name}", value := getattr(self, name))
             if name == "poisson_ratio" and not -1 < value <= 0.5:

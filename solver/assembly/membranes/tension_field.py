@@ -10,8 +10,7 @@ thickness Y t, and Poisson's ratio nu, there are three regimes:
     slack     E2 < -nu E1, E1 <= 0   0
 
 The energy is convex in the strain and has continuous derivatives, the stress; that one's derivative
-jumps between regimes. Where strain vanishes the film is taut. A ``compression_share`` r of the film
-bears compression: it has r times the first energy everywhere, and 1 - r times the relaxed one.
+jumps between regimes. Where strain vanishes the film is taut.
 
 Strain and stress are in an orthonormal frame and have the components (11, 22, sqrt(2) 12), so that
 their scalar product is that of tensors.
@@ -87,19 +86,22 @@ def full_stiffness(membrane: Membrane) -> Reals:
 def energy(membrane: Membrane, strain: Reals) -> Reals:
     """Energy (...) per undeformed area, N/mm, of strains (..., 3)."""
     whole = (strain @ full_stiffness(membrane) * strain).sum(axis=-1) / 2
+    if not membrane.wrinkles:
+        return np.asarray(whole)
     principal, nu = Principal.of(strain), membrane.poisson_ratio
     uniaxial = membrane.stiffness / 2 * principal.first**2
-    relaxed = np.select([principal.taut(nu), principal.wrinkled(nu)], [whole, uniaxial], 0.0)
-    return _mixed(membrane, whole, relaxed)
+    return np.select([principal.taut(nu), principal.wrinkled(nu)], [whole, uniaxial], 0.0)
 
 
 def stress(membrane: Membrane, strain: Reals) -> Reals:
     """Second Piola-Kirchhoff stress times thickness (..., 3), N/mm, of strains (..., 3)."""
     whole: Reals = strain @ full_stiffness(membrane)
+    if not membrane.wrinkles:
+        return whole
     principal, nu = Principal.of(strain), membrane.poisson_ratio
     uniaxial = membrane.stiffness * principal.first[..., None] * principal.along
     regimes = [principal.taut(nu)[..., None], principal.wrinkled(nu)[..., None]]
-    return _mixed(membrane, whole, np.select(regimes, [whole, uniaxial], 0.0))
+    return np.select(regimes, [whole, uniaxial], 0.0)
 
 
 def stiffness(membrane: Membrane, strain: Reals) -> Reals:
@@ -109,20 +111,15 @@ def stiffness(membrane: Membrane, strain: Reals) -> Reals:
     with its direction.
     """
     whole = np.broadcast_to(full_stiffness(membrane), (*strain.shape, 3))
+    if not membrane.wrinkles:
+        return whole
     principal, nu = Principal.of(strain), membrane.poisson_ratio
     wrinkled = principal.wrinkled(nu)
     apart = np.where(wrinkled, principal.first - principal.second, 1.0)
     turning = (principal.first / apart)[..., None, None]
     uniaxial = _square(principal.along) + turning * _square(principal.shear)
     regimes = [principal.taut(nu)[..., None, None], wrinkled[..., None, None]]
-    relaxed = np.select(regimes, [whole, membrane.stiffness * uniaxial], 0.0)
-    return _mixed(membrane, whole, relaxed)
-
-
-def _mixed(membrane: Membrane, whole: Reals, relaxed: Reals) -> Reals:
-    """What bears compression and what wrinkles, in their shares."""
-    share = membrane.compression_share if membrane.wrinkles else 1.0
-    return share * whole + (1 - share) * relaxed
+    return np.select(regimes, [whole, membrane.stiffness * uniaxial], 0.0)
 
 
 def _square(vectors: Reals) -> Reals:
