@@ -50,7 +50,7 @@ def test_a_film_that_is_a_region_wrinkles_under_the_force_of_theory() -> None:
     """
     mesh = block((*LEVELS, 20.0 + THICKNESS), 31)
     heights = mesh.nodes[mesh.tets[:, :4], 2].mean(axis=1)
-    mesh = mesh.with_regions({"film": np.flatnonzero(heights > 20.0)})
+    mesh = mesh.with_regions({"film": np.flatnonzero(heights > 20.0).astype(np.int32)})
     theory = 3 * (PLANE * THICKNESS**2 / 12 * RUBBER**2) ** (1 / 3)
     assert wrinkling_force(mesh, 1.2 * theory) == pytest.approx(theory, rel=0.02)
 
