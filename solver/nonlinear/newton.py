@@ -118,10 +118,14 @@ class Newton:
         return self.budget.exhausted(self.effort)
 
     @property
+    def wrinkling(self) -> bool:
+        """Whether there are films that may wrinkle."""
+        return any(membrane.wrinkles for membrane in self.problem.membranes)
+
+    @property
     def patience(self) -> int:
         """Largest number of iterations at one load, as long as nothing touches."""
-        wrinkling = any(membrane.wrinkles for membrane in self.problem.membranes)
-        return self.options.maximum_iterations * (1 + wrinkling)
+        return self.options.maximum_iterations * (1 + self.wrinkling)
 
     def correct(
         self,
