@@ -1,4 +1,4 @@
-"""A silicone bending actuator above a film that hardly stretches: its angle over the pressure.
+"""A silicone bending actuator above a silk film: its angle over the pressure.
 
 Half of it by symmetry about y = 0; mm, N, MPa. Shape and material of Moseley et al., Advanced
 Engineering Materials 18 (2016), whose chambers are closed by the film alone.
@@ -27,7 +27,7 @@ def pneunet(size: float = 4.0, largest_volume: float = 20.0) -> OwnBody:
         surfaces={"root": "<X", "tip": ">X", "middle": "<Y", "bottom": "<Z", "cavity": inside},
         supports={"symmetry": {"middle": "y"}},
         load={"largest_volume": largest_volume},
-        films=[{"surface": "bottom", "young_modulus": 40.0, "thickness": 0.5}],
+        films=[{"surface": "bottom", "young_modulus": 4100.0, "thickness": 0.5}],
         tip={"point": [L, 0, -LAYER], "base": [0, 0, -LAYER]},
         mesh={"size": size},
     )
