@@ -193,13 +193,14 @@ def _forces(mesh: Mesh, load: Traction | BodyForce | PointForce | EdgeForce) -> 
         tangents = np.einsum("qad,kai->dkqi", rule.gradients, mesh.nodes[cells])
         sizes = np.linalg.norm(np.cross(tangents[0], tangents[1]), axis=-1)
         return _integrated(mesh, cells, rule, sizes, load.stress)
-    cells, rule = _elements(mesh, load.region), tetrahedron_rule()
+    cells, rule = elements_of(mesh, load), tetrahedron_rule()
     sizes = np.linalg.det(np.einsum("qad,kai->kqdi", rule.gradients, mesh.nodes[cells]))
     return _integrated(mesh, cells, rule, sizes, load.density)
 
 
-def _elements(mesh: Mesh, region: str | None) -> Integers:
-    """Tetrahedra (k, 10) of a region, or all; ``SolverError`` for an unknown one."""
+def elements_of(mesh: Mesh, load: BodyForce) -> Integers:
+    """Tetrahedra (k, 10) that a load acts on; ``SolverError`` for an unknown region."""
+    region = load.region
     if region is None:
         return mesh.tets
     if not isinstance(region, str) or region not in mesh.regions:
