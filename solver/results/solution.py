@@ -126,9 +126,9 @@ class Solution:
 
         Folded elements, and membranes in compression where real films would wrinkle.
         """
-        folds = folds_of(self.problem.mesh, self.displacement)
-        sources = (folds, *forces_of(self.problem, self.displacement))
-        return tuple(each.warning for each in sources if each.warning)
+        folded = folds_of(self.problem.mesh, self.displacement).warning
+        films = (each.warning for each in forces_of(self.problem, self.displacement))
+        return tuple(text for text in (folded, *films) if text)
 
     @property
     def stable_at_volume(self) -> bool | None:
