@@ -84,7 +84,9 @@ def test_other_regions_are_no_neighbour(problem: Problem, solved: Solution) -> N
     """Even where there are as many pressures as there were."""
     halves = [np.arange(len(problem.mesh.tets)) % 2 == k for k in (0, 1)]
     one, other = (
-        replace(problem, mesh=problem.mesh.with_regions({"half": np.flatnonzero(half)}))
+        replace(
+            problem, mesh=problem.mesh.with_regions({"half": np.flatnonzero(half).astype(np.int32)})
+        )
         for half in halves
     )
     with pytest.raises(SolverError, match="same regions"):
