@@ -74,12 +74,14 @@ class Film(BodyRecord):
         young_modulus: MPa.
         poisson_ratio: Below 0.5, or 0.5 of an incompressible film.
         thickness: mm.
+        wrinkles: Whether it wrinkles where it is pressed together, instead of bearing compression.
     """
 
     surface: str
     young_modulus: float = Field(gt=0, le=1e7, json_schema_extra={"unit": "MPa"})
     poisson_ratio: float = Field(default=0.3, gt=-1, le=0.5)
     thickness: float = Field(gt=0, le=100, json_schema_extra={"unit": "mm"})
+    wrinkles: bool = True
 
 
 class Gravity(BodyRecord):

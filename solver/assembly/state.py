@@ -17,20 +17,21 @@ class State:
     ``plane``: tilt (rad) and shift (mm) of the moving plane, zeros without one. Increments have
     the same form; on a moving plane the z of their displacement is the change of height in it.
     ``geometric_stress`` (e, q, 6): second Piola-Kirchhoff stress at the integration points that the
-    geometric part of the tangent is formed with, MPa (see ``Newton``), and ``membrane_stress``
-    (t, m) that of membranes, N/mm (``Membranes.stresses``); if empty, those of the displacement.
+    geometric part of the tangent is formed with, MPa (see ``Newton``), and ``membrane_strain``
+    (t, m) the strain that does so in membranes, mm^2 (``Membranes.strains``); if empty, those of
+    the displacement.
     """
 
     displacement: Reals
     hydrostatic_pressure: Reals
     plane: Reals = field(default_factory=lambda: np.zeros(2))
     geometric_stress: Reals = field(default_factory=lambda: np.zeros((0, 0, 6)))
-    membrane_stress: Reals = field(default_factory=lambda: np.zeros((0, 0)))
+    membrane_strain: Reals = field(default_factory=lambda: np.zeros((0, 0)))
 
     @property
     def extrapolated(self) -> bool:
         """Whether the tangent is formed with other stresses than those of the displacement."""
-        return len(self.geometric_stress) > 0 or len(self.membrane_stress) > 0
+        return len(self.geometric_stress) > 0 or len(self.membrane_strain) > 0
 
     @staticmethod
     def zero(problem: Problem) -> State:

@@ -117,6 +117,16 @@ class Newton:
         """Which part of the budget is spent, as text; empty while something is left."""
         return self.budget.exhausted(self.effort)
 
+    @property
+    def wrinkling(self) -> bool:
+        """Whether there are films that may wrinkle."""
+        return any(membrane.wrinkles for membrane in self.problem.membranes)
+
+    @property
+    def patience(self) -> int:
+        """Largest number of iterations at one load, as long as nothing touches."""
+        return self.options.maximum_iterations * (1 + self.wrinkling)
+
     def correct(
         self,
         guess: State,
@@ -154,12 +164,13 @@ class Newton:
         factorization is reused; or, if the path continues ``onward``, the iterations end with a
         small correction by such a tangent. With contact the last correction must not exceed the
         contacts' ``depth`` nor change much what rigid bodies exert, and twice as many iterations
-        are allowed, for the set of points in contact to converge.
+        are allowed, for the set of points in contact to converge; so they are with films that may
+        wrinkle, for the set of points that are taut.
         """
         state = guess
         reuse = own = touched = False
         iteration = 0
-        while iteration < self.options.maximum_iterations * (2 if touched else 1):
+        while iteration < max(self.patience, self.options.maximum_iterations * (1 + touched)):
             if iteration and (reason := self.exhausted()):
                 return Attempt(guess, iteration, reason, touched=touched)
             iteration += 1
@@ -388,8 +399,8 @@ class Newton:
         """The same for membranes and stiff regions only; ``moved`` itself without any."""
         films = self.assembly.films
         if films is not None:
-            stress = films.extrapolated_stress(state, increment)
-            moved = replace(moved, membrane_stress=stress)
+            strain = films.extrapolated_strain(state, increment)
+            moved = replace(moved, membrane_strain=strain)
         if not self.stiffened:
             return moved
         return replace(moved, geometric_stress=self._extrapolated_stress(state, increment))

@@ -21,7 +21,8 @@ class SolverOptions:
         growth: factor by which a step may grow after an accepted one.
         cut: factor of a step after a rejected one.
         smallest_step: fraction of the load; a path stops where a step would be shorter.
-        maximum_iterations: of Newton's method at one load; twice as many where surfaces touch.
+        maximum_iterations: of Newton's method at one load; twice as many where surfaces touch or
+            films may wrinkle.
         tolerance: bound of the components of the last Newton correction at the whole load, in units
             of the body's diagonal; the error left after that correction is far smaller. That of the
             hydrostatic pressure may be a hundred times as large, relative to the material's initial

@@ -51,7 +51,7 @@ def corrected(newton: Newton, guess: State, load: float, row: Row) -> Equilibriu
     stable state.
     """
     state, size = guess, newton.problem.mesh.size
-    for iteration in range(1, newton.options.maximum_iterations + 1):
+    for iteration in range(1, newton.patience + 1):
         if reason := newton.exhausted():
             return EquilibriumPoint(guess, load, iteration, failure=reason)
         equilibrium, failure = _linearised(newton, state, load)

@@ -19,14 +19,17 @@ class Membrane:
     """A film glued to a surface: it resists stretching, and bends without any resistance.
 
     Its stress is plane and linear in its Green strain (St. Venant and Kirchhoff's law), so that it
-    is for films that stretch little, however much they bend and turn. A film that is pressed
-    together bears the compression; a real one wrinkles (``membrane_forces`` says where).
+    is for films that stretch little, however much they bend and turn. It bears tension only: where
+    it is pressed together it wrinkles, and its strain and stress are means over the wrinkles
+    (tension field). With ``wrinkles=False`` it bears compression too, as far as the body under it
+    keeps its stability (``membrane_forces`` says where).
 
     Attributes:
         surface: name of the surface, outer or within the body.
         young_modulus: MPa.
         poisson_ratio: above -1, up to 0.5.
         thickness: of the undeformed film, mm.
+        wrinkles: whether it wrinkles instead of bearing compression.
 
     Raises:
         SolverError: a number that is not one, or out of its bounds.
@@ -36,9 +39,11 @@ class Membrane:
     young_modulus: float
     poisson_ratio: float
     thickness: float
+    wrinkles: bool = True
 
     def __post_init__(self) -> None:
         check_instance("membranes: surface", self.surface, str)
+        check_instance("membranes: wrinkles", self.wrinkles, bool)
         for name, unit in (("young_modulus", " MPa"), ("poisson_ratio", ""), ("thickness", " mm")):
             check_number(f"membranes: {name}", value := getattr(self, name))
             if name == "poisson_ratio" and not -1 < value <= 0.5:

@@ -123,7 +123,7 @@ class Strip:
     def problem(self, supports: Supports, *loads: Traction) -> Problem:
         """Of the strip under supports and loads."""
         film = self.film
-        membrane = Membrane("z0", film.young_modulus, POISSON, film.thickness)
+        membrane = Membrane("z0", film.young_modulus, POISSON, film.thickness, wrinkles=False)
         return Problem(
             self.mesh, SILICONE, supports, loads=loads,
             materials={} if self.thin else {"film": film.law},

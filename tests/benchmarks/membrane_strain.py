@@ -61,7 +61,7 @@ class Row:
 
 def strip(stiffness: float, width: float, radius: float = 17.0) -> BentStrip:
     """A strip with a film of 0.5 mm."""
-    film = Membrane("z0", stiffness / 0.5, 0.3, 0.5)
+    film = Membrane("z0", stiffness / 0.5, 0.3, 0.5, wrinkles=False)
     return BentStrip(0.025, LENGTH, width, HEIGHT, -1 / radius, film)
 
 

@@ -52,10 +52,7 @@ def problem(body: OwnBody, mesh: Mesh) -> Problem:
         ),
         pressurised=body.under_pressure,
         loads=_weight(body),
-        membranes=tuple(
-            Membrane(each.surface, each.young_modulus, each.poisson_ratio, each.thickness)
-            for each in body.films
-        ),
+        membranes=tuple(Membrane(**each.model_dump()) for each in body.films),
         sharp_edge_radius=_sharp_edge_radius(body),
         contacts=tuple(_planes(body)),
     )

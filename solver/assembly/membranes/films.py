@@ -37,18 +37,19 @@ class Films:
 
     def add(self, state: State, tangent: bool, residual: Reals, values: Reals) -> None:
         """Add forces to ``residual`` and the tangent to ``values``."""
-        stresses = self.membranes.stresses(state.displacement)
+        strains = self.membranes.strains(state.displacement)
         slopes = self.membranes.slopes(state.displacement)
+        stresses = self.membranes.stresses(strains)
         residual += self.numbering.gather(self.membranes.summed(stresses, slopes))
         if tangent:
-            bent = state.membrane_stress if len(state.membrane_stress) else stresses
-            upper = self.membranes.tangents(bent, slopes)[:, *np.triu_indices(18)]
+            bent = state.membrane_strain if len(state.membrane_strain) else strains
+            upper = self.membranes.tangents(strains, bent, slopes)[:, *np.triu_indices(18)]
             used = self.entries >= 0
             np.add.at(values, self.entries[used], upper[used])
 
-    def extrapolated_stress(self, state: State, increment: State) -> Reals:
-        """Stress after an increment from a state, to first order: a ``State.membrane_stress``."""
-        return self.membranes.stresses_along(state.displacement, increment.displacement)
+    def extrapolated_strain(self, state: State, increment: State) -> Reals:
+        """Strain after an increment from a state, to first order: a ``State.membrane_strain``."""
+        return self.membranes.strains_along(state.displacement, increment.displacement)
 
     def energy(self, state: State) -> float:
         """Energy of all membranes, N mm."""

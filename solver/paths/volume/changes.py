@@ -60,7 +60,7 @@ def changes_between(
         found.append(Change("extremum", _extremum_between(newton, a, b)))
     if a.unstable_modes != b.unstable_modes:
         found.append(Change("bifurcation", _bifurcation_between(newton, a, b)))
-    elif _is_unusual(a, b, turning) and not (_touches(newton, a) or _touches(newton, b)):
+    elif _is_unusual(a, b, turning) and not (_has_corners(newton, a) or _has_corners(newton, b)):
         turn = _sharp_turn_between(newton, a, b)
         found += [Change("turn", turn)] if turn is not None else []
     return tuple(sorted(found, key=lambda change: abs(change.at.volume - a.volume)))
@@ -71,8 +71,10 @@ def turning(a: HeldVolume, b: HeldVolume) -> float:
     return a.turn(b) / abs(b.volume - a.volume)
 
 
-def _touches(newton: Newton, at: HeldVolume) -> bool:
-    """Whether a contact is active: where points begin to touch, a path turns on its branch."""
+def _has_corners(newton: Newton, at: HeldVolume) -> bool:
+    """Whether the branch itself may turn: where points begin to touch, or films to wrinkle."""
+    if newton.wrinkling:
+        return True
     return newton.assembly.contacts.touched(at.found.state, newton.loading.share(at.pressure))
 
 

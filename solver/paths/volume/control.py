@@ -57,8 +57,8 @@ def inflate(
     message names the pressure at which stability at constant pressure is lost, which is found and
     has a point, and so is ``limit``; and the first place where another branch begins. Such places
     are the ``bifurcations``. One counts as such where the number of unstable modes at the held
-    volume changes, or where the path turns sharply (not looked for where surfaces may touch, which
-    turns a path too).
+    volume changes, or where the path turns sharply (not looked for where surfaces may touch or
+    films may wrinkle, which turns a path too).
 
     Args:
         problem: body, supports, loads; at least one surface is pressurised.

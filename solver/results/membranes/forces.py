@@ -1,7 +1,7 @@
 """Forces in membranes, and where they are pressed together.
 
-A real film buckles into wrinkles under the least compression, and bears next to none of it. A
-``Membrane`` bears it, until the body under it is no longer stable.
+A real film buckles into wrinkles under the least compression, and bears next to none of it. So does
+a ``Membrane``, but for one with ``wrinkles=False``, until the body under it is no longer stable.
 """
 
 from __future__ import annotations
@@ -12,8 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from solver.arrays import Integers, Reals
+from solver.assembly.membranes import tension_field
 from solver.assembly.membranes.membranes import SAMPLES, Membranes
-from solver.assembly.membranes.stiffness import metrics, plane_stress
+from solver.assembly.membranes.response import as_tensors, components, frames, metrics
 from solver.mesh.elements import TRIANGLE_EDGES, quadratic_gradients, triangle_rule
 from solver.mesh.mesh import Mesh
 from solver.problem.membranes import Membrane
@@ -91,16 +92,15 @@ def forces_of(problem: Problem, displacement: Reals) -> tuple[MembraneForces, ..
 
 
 def _forces(mesh: Mesh, membrane: Membrane, displacement: Reals) -> MembraneForces:
-    """Cauchy stress times thickness, S^ac a_cb t sqrt(A / a), with a = A + 2 E: its eigenvalues."""
+    """Cauchy stress times thickness, S (1 + 2 E) t / sqrt(det (1 + 2 E)): its eigenvalues."""
     triangles = mesh.triangles(membrane.surface)
-    metric = _central_metrics(mesh.nodes, triangles)
+    frame = frames(_central_metrics(mesh.nodes, triangles))
     samples = Membranes.on(mesh, membrane).strains(displacement)
     centre = np.tensordot(2 * triangle_rule().weights, SAMPLES.basis, (0, 1))
-    strain = np.tensordot(samples, centre, 1)
-    stress = plane_stress(membrane, np.asarray(np.linalg.inv(metric), np.float64), strain)
-    deformed = metric + 2 * strain
-    stretched = np.sqrt(np.linalg.det(metric) / np.linalg.det(deformed))
-    principal = _eigenvalues(stress @ deformed) * stretched[:, None]
+    strain = components(frame, np.tensordot(samples, centre, 1))
+    stress = as_tensors(tension_field.stress(membrane, strain))
+    deformed = np.eye(2) + 2 * as_tensors(strain)
+    principal = _eigenvalues(stress @ deformed) / np.sqrt(np.linalg.det(deformed))[:, None]
     centres = mesh.nodes[triangles[:, :3]].mean(axis=1)
     areas = _areas(mesh.nodes, triangles)
     return MembraneForces(membrane.surface, principal, centres, areas, membrane.stiffness)

@@ -22,6 +22,7 @@ RUBBER = Ogden.neo_hooke(1.0)
         ({"poisson_ratio": 0.6}, "membranes: poisson_ratio = 0.6 must be above -1 and at most"),
         ({"poisson_ratio": float("nan")}, "membranes: poisson_ratio = nan must be above -1"),
         ({"thickness": "thin"}, r"membranes: thickness must be a number, got 'thin' \(str\)"),
+        ({"wrinkles": 1}, "membranes: wrinkles must be a bool, got 1"),
         ({"surface": 3}, "membranes: surface must be a str, got 3"),
     ],
 )

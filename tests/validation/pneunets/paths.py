@@ -108,7 +108,9 @@ class Setup:
             return {
                 "materials": {"film": Ogden.neo_hooke(mu, bulk_modulus(mu, film.poisson_ratio))}
             }
-        membrane = Membrane("bottom", film.young_modulus, film.poisson_ratio, film.thickness)
+        membrane = Membrane(
+            "bottom", film.young_modulus, film.poisson_ratio, film.thickness, wrinkles=False
+        )
         return {"membranes": (membrane,)}
 
     def _middles(self) -> list[float]:

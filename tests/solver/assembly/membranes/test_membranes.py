@@ -18,7 +18,7 @@ from solver.assembly.state import State
 
 Array = NDArray[np.float64]
 Meshes = Callable[..., Mesh]
-FILM = Membrane("z1", 100.0, 0.3, 0.1)
+FILM = Membrane("z1", 100.0, 0.3, 0.1, wrinkles=False)
 
 
 def curved(box: Meshes) -> Mesh:
@@ -32,9 +32,10 @@ def with_film(mesh: Mesh, *films: Membrane) -> Problem:
     return Problem(mesh, Ogden.neo_hooke(1.0, 10.0), Supports(("x0",)), membranes=films or (FILM,))
 
 
-def test_forces_and_tangent_are_derivatives_of_the_energy(box: Meshes) -> None:
+@pytest.mark.parametrize("wrinkles", [True, False])
+def test_forces_and_tangent_are_derivatives_of_the_energy(box: Meshes, wrinkles: bool) -> None:
     """To 1e-8: of a curved surface, part of which is clamped, in a state of large strain."""
-    problem = with_film(curved(box))
+    problem = with_film(curved(box), replace(FILM, wrinkles=wrinkles))
     having, bare = (Assembly(each) for each in (problem, replace(problem, membranes=())))
     random, size = np.random.default_rng(1), bare.numbering.size
     place = random.uniform(-0.05, 0.05, size)
