@@ -35,9 +35,15 @@ if TYPE_CHECKING:
     from solver.results.contacts import ContactForce, contact_forces
     from solver.results.energy import Potential, potential, strain_energy
     from solver.results.folds import Folds
-    from solver.results.membranes.forces import MembraneForces, membrane_forces
+    from solver.results.membranes.forces import MembraneForces
     from solver.results.reactions import Reaction, reaction
-    from solver.results.solution import PathPoint, Solution, cavity_volume, folded_elements
+    from solver.results.solution import (
+        PathPoint,
+        Solution,
+        cavity_volume,
+        folded_elements,
+        membrane_forces,
+    )
     from solver.results.stress import (
         Peak,
         nodal_cauchy,
@@ -153,10 +159,16 @@ __getattr__ = imported_when_asked_for(
         "results.contacts": ("ContactForce", "contact_forces"),
         "results.energy": ("Potential", "potential", "strain_energy"),
         "results.folds": ("Folds",),
-        "results.membranes.forces": ("MembraneForces", "membrane_forces"),
+        "results.membranes.forces": ("MembraneForces",),
         "results.reactions": ("Reaction", "reaction"),
         "problem.supports": ("Supports",),
-        "results.solution": ("PathPoint", "Solution", "cavity_volume", "folded_elements"),
+        "results.solution": (
+            "PathPoint",
+            "Solution",
+            "cavity_volume",
+            "folded_elements",
+            "membrane_forces",
+        ),
         "results.vtu": ("write_vtu",),
         "results.work": ("Work", "work"),
         "sensitivity.gradients": ("Gradients", "ResponseGradient", "gradients"),

@@ -253,7 +253,7 @@ def _numbers(name: str, values: ArrayLike, dtype: DTypeLike) -> NDArray[Any]:
             raise ValueError
         with np.errstate(invalid="ignore"):  # NaN is no whole number, which is found below
             array = np.ascontiguousarray(given, dtype=dtype)
-        if given.dtype.kind == "f" and array.dtype.kind == "i" and (array != given).any():
+        if array.dtype.kind == "i" and (array != given).any():  # a fraction, or too large
             raise ValueError
     except (TypeError, ValueError):
         kind = "whole numbers of nodes" if dtype is np.int32 else "numbers in mm"

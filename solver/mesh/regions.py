@@ -65,10 +65,10 @@ def sides_of(
 
 
 def _elements(name: object, given: object, number_of_elements: int) -> Integers:
-    """Numbers of a region's elements (k,), each once; ``SolverError`` otherwise."""
+    """Numbers of a region's elements (k,), each once, read-only; ``SolverError`` otherwise."""
     if not isinstance(name, str) or name == REST:
         raise SolverError(f"mesh: the name of a region must be a text, got {shown(name)}.")
-    elements = _whole_numbers(name, given)
+    elements = _whole_numbers(name, given)  # as wide as given: 2^32 must not become 0
     if not len(elements):
         raise SolverError(f"mesh: the region {name!r} has no elements.")
     if not 0 <= elements.min() <= elements.max() < number_of_elements:
@@ -82,11 +82,13 @@ def _elements(name: object, given: object, number_of_elements: int) -> Integers:
         raise SolverError(
             f"mesh: the region {name!r} names element {numbers[counts.argmax()]} twice."
         )
-    return elements
+    kept: NDArray[np.int32] = np.array(elements, dtype=np.int32)
+    kept.flags.writeable = False
+    return kept
 
 
-def _whole_numbers(name: str, given: object) -> Integers:
-    """A read-only array (k,) of whole numbers; ``SolverError`` for anything else."""
+def _whole_numbers(name: str, given: object) -> NDArray[np.integer]:
+    """An array (k,) of whole numbers; ``SolverError`` for anything else."""
     try:
         array = np.asarray(given)
     except ValueError:
@@ -96,6 +98,4 @@ def _whole_numbers(name: str, given: object) -> Integers:
         raise SolverError(
             f"mesh: the region {name!r} must be numbers of elements (k,), got {shown(given)}."
         )
-    elements: NDArray[np.int32] = np.array(array, dtype=np.int32)
-    elements.flags.writeable = False
-    return elements
+    return array.astype(np.int64) if empty else array

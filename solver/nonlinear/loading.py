@@ -68,13 +68,20 @@ class Loading:
 
 
 def _check_same_mesh(problem: Problem, former: Problem) -> None:
-    """Raise ``SolverError`` unless two problems have the same mesh, moving plane included."""
+    """Raise ``SolverError`` unless two problems have the same mesh, moving plane included.
+
+    Regions too: a node between them has a pressure for each.
+    """
     ours, theirs = problem.mesh, former.mesh
-    same = ours is theirs or (
-        np.array_equal(ours.nodes, theirs.nodes) and np.array_equal(ours.tets, theirs.tets)
-    )
-    if not same:
-        raise SolverError("after: a stage goes on from one with the same mesh; it has another.")
+    if ours is not theirs:
+        if not (
+            np.array_equal(ours.nodes, theirs.nodes) and np.array_equal(ours.tets, theirs.tets)
+        ):
+            raise SolverError("after: a stage goes on from one with the same mesh; it has another.")
+        if not np.array_equal(ours.tet_vertices, theirs.tet_vertices):
+            raise SolverError(
+                "after: a stage goes on from one whose mesh has the same regions; it has others."
+            )
     if problem.moving_plane != former.moving_plane:
         raise SolverError(
             f"after: the moving plane is {problem.moving_plane!r}, that of the stage before "

@@ -354,16 +354,27 @@ class Newton:
         assert reached.direction is not None
         step = reached.direction.scaled(target - load)
         moved = self.kinematics.advanced(reached.state, step)
-        if self.problem.supports.prescribed:  # displaces nodes without unknowns
-            there = self.kinematics.with_supports(moved, target)
-            if self.assembly.films is None and not self.stiffened:
-                return there
-            led = self._led(reached.state, load, target)
-            whole = replace(step, displacement=step.displacement + led)
-            return self.with_film_stress(reached.state, whole, there)
+        if self.problem.supports.prescribed:
+            return self.led_on(reached.state, load, step, moved, target)
         return self._with_stress(reached.state, step, moved)
 
-    def _led(self, state: State, load: float, target: float) -> Reals:
+    def led_on(
+        self, state: State, load: float, increment: State, moved: State, target: float
+    ) -> State:
+        """``moved`` with its supports and the stress of its films at another load.
+
+        It is the ``state`` at ``load`` after an ``increment`` of the unknowns. What supports lead
+        displaces nodes without any, and stretches films too.
+        """
+        if not self.problem.supports.prescribed:
+            return self.with_film_stress(state, increment, moved)
+        there = self.kinematics.with_supports(moved, target)
+        if self.assembly.films is None and not self.stiffened:
+            return there
+        displacement = increment.displacement + self._led_by_supports(state, load, target)
+        return self.with_film_stress(state, replace(increment, displacement=displacement), there)
+
+    def _led_by_supports(self, state: State, load: float, target: float) -> Reals:
         """What supports lead between two loads to first order, displacements (n, 3)."""
         step = DIFFERENCE if load < 0.5 else -DIFFERENCE
         there = self.kinematics.with_supports(state, load + step)

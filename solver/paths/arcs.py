@@ -123,8 +123,8 @@ class Arcs:
         newton, here = self.newton, arc.equilibrium
         load = here.load + arc.slope * length
         step = newton.system.expanded(arc.tangent).scaled(length)
-        there = newton.kinematics.with_motions(newton.kinematics.advanced(here.state, step), load)
-        guess = newton.with_film_stress(here.state, step, there)
+        moved = newton.kinematics.advanced(here.state, step)
+        guess = newton.led_on(here.state, here.load, step, moved, load)
         return corrected(newton, guess, load, row)
 
     def _at_load(self, arc: Arc, load: float) -> Arc:

@@ -66,7 +66,7 @@ def corrected(newton: Newton, guess: State, load: float, row: Row) -> Equilibriu
             return EquilibriumPoint(
                 guess, load, iteration, failure="the corrections grew without bound"
             )
-        load += change
+        before, load = load, load + change
         moved = newton.kinematics.advanced(state, increment)
         there = newton.kinematics.with_motions(moved, load)
         newton.effort.iterations += 1
@@ -75,7 +75,7 @@ def corrected(newton: Newton, guess: State, load: float, row: Row) -> Equilibriu
         small = newton.pressure_size(increment, there) <= pressure_bound(tolerance)
         if small and correction <= tolerance * size:
             return equilibrium_point(newton, there, load, iteration)
-        state = newton.with_film_stress(state, increment, there)
+        state = newton.led_on(state, before, increment, moved, load)
     return EquilibriumPoint(
         guess, load, iteration, failure=f"no convergence in {iteration} iterations"
     )

@@ -63,8 +63,8 @@ def neighbouring(
     not known.
 
     Args:
-        problem: on a mesh with the same tetrahedra as that of ``near``; nodes, material and loads
-            may differ.
+        problem: on a mesh with the same tetrahedra and regions as that of ``near``; nodes,
+            materials and loads may differ.
         pressure: on the pressurised surfaces.
         near: the equilibrium of the neighbouring problem.
         former: what the solve before left, of no use after this one; by default all is set up anew.
@@ -72,7 +72,7 @@ def neighbouring(
         at_hand: what a solve left whose factorization is that of ``near``; by default ``former``.
 
     Raises:
-        SolverError: invalid input, or a mesh with other tetrahedra.
+        SolverError: invalid input, or a mesh with other tetrahedra or regions.
     """
     check_call(problem, options, None, None)
     check_solution(near)
@@ -111,6 +111,8 @@ def _check_same_cells(problem: Problem, other: Problem) -> None:
     ours, theirs = problem.mesh.tets, other.mesh.tets
     if ours is not theirs and not np.array_equal(ours, theirs):
         raise SolverError("near: the mesh must have the same tetrahedra as that of the problem.")
+    if not np.array_equal(problem.mesh.tet_vertices, other.mesh.tet_vertices):
+        raise SolverError("near: the mesh must have the same regions as that of the problem.")
     if problem.moving_plane != other.moving_plane:
         raise SolverError(
             f"near: the moving plane is {problem.moving_plane!r}, that of the neighbour "

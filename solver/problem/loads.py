@@ -15,6 +15,7 @@ from solver.input_types import check_number, names, shown
 from solver.mesh.edges import SHAPES, common_edge, lengths
 from solver.mesh.elements import Rule, tetrahedron_rule, triangle_rule
 from solver.mesh.mesh import Mesh
+from solver.problem.vectors import finite
 
 Field: TypeAlias = tuple[float, float, float] | Callable[[Reals], Reals]
 """A vector, or a function of reference positions (k, 3) in mm that gives vectors (k, 3)."""
@@ -73,6 +74,9 @@ class EdgeForce:
         surfaces: names of both surfaces.
         force: components of the whole force, N; per length of the undeformed edge the same all
             along it.
+
+    Raises:
+        SolverError: anything but two names, or but three finite numbers.
     """
 
     surfaces: tuple[str, str]
@@ -83,6 +87,8 @@ class EdgeForce:
         if len(given) != 2:
             raise SolverError(f"edge force: surfaces must be two names, got {len(given)}.")
         object.__setattr__(self, "surfaces", given)
+        force = finite("edge force: force (N)", self.force, (3,))
+        object.__setattr__(self, "force", tuple(force.tolist()))
 
 
 @dataclass(frozen=True)
@@ -187,18 +193,19 @@ def _forces(mesh: Mesh, load: Traction | BodyForce | PointForce | EdgeForce) -> 
         tangents = np.einsum("qad,kai->dkqi", rule.gradients, mesh.nodes[cells])
         sizes = np.linalg.norm(np.cross(tangents[0], tangents[1]), axis=-1)
         return _integrated(mesh, cells, rule, sizes, load.stress)
-    cells, rule = _elements(mesh, load.region), tetrahedron_rule()
+    cells, rule = elements_of(mesh, load), tetrahedron_rule()
     sizes = np.linalg.det(np.einsum("qad,kai->kqdi", rule.gradients, mesh.nodes[cells]))
     return _integrated(mesh, cells, rule, sizes, load.density)
 
 
-def _elements(mesh: Mesh, region: str | None) -> Integers:
-    """Tetrahedra (k, 10) of a region, or all; ``SolverError`` for an unknown one."""
+def elements_of(mesh: Mesh, load: BodyForce) -> Integers:
+    """Tetrahedra (k, 10) that a load acts on; ``SolverError`` for an unknown region."""
+    region = load.region
     if region is None:
         return mesh.tets
-    if region not in mesh.regions:
+    if not isinstance(region, str) or region not in mesh.regions:
         known = ", ".join(mesh.regions) or "none"
-        raise SolverError(f"load: unknown region {region!r}; the mesh has {known}.")
+        raise SolverError(f"load: the mesh has no region {region!r}; known regions: {known}.")
     elements: Integers = mesh.tets[mesh.regions[region]]
     return elements
 
@@ -237,8 +244,7 @@ def _on_edge(mesh: Mesh, load: EdgeForce) -> Reals:
     lines = common_edge(mesh, *load.surfaces)
     sizes, forces = lengths(mesh.nodes, lines), np.zeros(mesh.nodes.shape)
     shares = np.einsum("kq,qa->ka", sizes, SHAPES) / sizes.sum()
-    total = _values(load.force, np.zeros((1, 3)))[0]
-    np.add.at(forces, lines, shares[..., None] * total)
+    np.add.at(forces, lines, shares[..., None] * np.array(load.force))
     return forces
 
 

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from solver.arrays import Integers, Reals
+from solver.mesh.faces import face_keys
 from solver.mesh.mesh import Mesh
 from solver.problem.problem import Problem
 
@@ -35,12 +36,15 @@ def trusted_nodes(problem: Problem) -> NDArray[np.bool_]:
 
 
 def _unloaded(problem: Problem) -> Integers:
-    """Triangles (k, 6) that are neither pressurised nor cuts through the body."""
+    """Outer triangles (k, 6) that are neither pressurised nor cuts through the body."""
     planes = set(problem.supports.symmetry) - set(problem.supports.immovable)
     cuts = {*planes, problem.moving_plane, *problem.pressurised}
-    triangles = problem.mesh.triangles(*(n for n in problem.mesh.surfaces if n not in cuts))
+    mesh = problem.mesh
+    triangles = mesh.triangles(*(n for n in mesh.surfaces if n not in cuts))
     _, first = np.unique(triangles, axis=0, return_index=True)  # surfaces may overlap
-    return triangles[np.sort(first)]
+    triangles = triangles[np.sort(first)]
+    outer: Integers = triangles[np.isin(face_keys(triangles, len(mesh.nodes)), mesh.outer_faces)]
+    return outer
 
 
 def _rims(problem: Problem) -> Integers:

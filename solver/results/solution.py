@@ -15,6 +15,7 @@ from solver.mesh.mesh import Mesh
 from solver.problem.problem import Problem
 from solver.problem.vectors import check_displacement
 from solver.results.folds import Folds, folds_of
+from solver.results.membranes.forces import MembraneForces, forces_of
 
 StopKind: TypeAlias = Literal["", "step", "limit", "guard", "budget"]
 """What ended a path before the whole load: no step succeeds, a limit point or bifurcation, a state
@@ -121,9 +122,13 @@ class Solution:
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """Sentences on what makes the result less reliable than it looks: folded elements."""
-        warning = folds_of(self.problem.mesh, self.displacement).warning
-        return (warning,) if warning else ()
+        """Sentences on what makes the result less reliable than it looks.
+
+        Folded elements, and membranes in compression where real films would wrinkle.
+        """
+        folded = folds_of(self.problem.mesh, self.displacement).warning
+        films = (each.warning for each in forces_of(self.problem, self.displacement))
+        return tuple(text for text in (folded, *films) if text)
 
     @property
     def stable_at_volume(self) -> bool | None:
@@ -157,6 +162,19 @@ def folded_elements(solution: Solution) -> Folds:
     """
     check_solution(solution)
     return folds_of(solution.problem.mesh, solution.displacement)
+
+
+def membrane_forces(solution: Solution) -> tuple[MembraneForces, ...]:
+    """Forces in the membranes of an equilibrium.
+
+    Args:
+        solution: an equilibrium.
+
+    Returns:
+        Those of each of ``Problem.membranes``, in their order.
+    """
+    check_solution(solution)
+    return forces_of(solution.problem, solution.displacement)
 
 
 def cavity_volume(mesh: Mesh, displacement: Reals, surfaces: tuple[str, ...]) -> float:

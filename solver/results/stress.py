@@ -102,7 +102,8 @@ def peaks_by_region(solution: Solution) -> dict[str, Peak]:
     """Largest nodal von Mises stress of each region.
 
     Args:
-        solution: an equilibrium. Nodes near sharp edges do not count, as for ``peak_von_mises``.
+        solution: an equilibrium. Nodes near sharp edges do not count, as for ``peak_von_mises``,
+            but in a region that has no others.
 
     Returns:
         Region -> the stress and where it is. The rest, which belongs to no region of the mesh, has
@@ -112,10 +113,12 @@ def peaks_by_region(solution: Solution) -> dict[str, Peak]:
     problem = solution.problem
     mesh, stress = problem.mesh, stress_after(problem, solution.displacement)
     counted = trusted_nodes(problem)[mesh.sides]
-    return {
-        mesh.region_names[number]: _peak(mesh, stress, counted & (mesh.region_of_side == number))
-        for number in np.unique(mesh.region_of_tet)
-    }
+    peaks = {}
+    for number in np.unique(mesh.region_of_tet):
+        own = mesh.region_of_side == number
+        chosen = counted & own if (counted & own).any() else own
+        peaks[mesh.region_names[number]] = _peak(mesh, stress, chosen)
+    return peaks
 
 
 def peak_of(

@@ -15,7 +15,7 @@ from solver.mesh import edges
 from solver.mesh.edges import common_edge
 from solver.mesh.elements import tetrahedron_rule
 from solver.mesh.mesh import Mesh
-from solver.problem.loads import BodyForce, EdgeForce, Field, Traction, plane_loads
+from solver.problem.loads import BodyForce, EdgeForce, Field, Traction, elements_of, plane_loads
 from solver.problem.problem import Problem
 from solver.problem.springs import FoundationSpring
 from solver.sensitivity.surface_integrals import (
@@ -88,7 +88,7 @@ def _of_traction(mesh: Mesh, load: Traction, along: Reals) -> Reals:
 
 
 def _of_body_force(mesh: Mesh, load: BodyForce, along: Reals) -> Reals:
-    rule, tets = tetrahedron_rule(), mesh.tets
+    rule, tets = tetrahedron_rule(), elements_of(mesh, load)
     places = np.einsum("qa,eai->eqi", rule.quadratic, mesh.nodes[tets])
     moves = np.einsum("qa,eai->eqi", rule.quadratic, along[tets])
     matrices = np.einsum("qad,eai->eqdi", rule.gradients, mesh.nodes[tets])

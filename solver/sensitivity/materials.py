@@ -73,9 +73,9 @@ def material_derivatives(
         SolverError: anything but two materials and a step other than zero, or a region that has no
             material of its own.
     """
+    number = _number_of(found, region)
     if not changes:
         return {response: {} for response in found.responses}
-    number = _number_of(found, region)
     checked = {name: _checked(name, each) for name, each in changes.items()}
     residuals = _residuals(found, checked, number)
     columns = {

@@ -24,9 +24,11 @@ from solver import (
     contact_forces,
     folded_elements,
     inflate,
+    membrane_forces,
     nodal_cauchy,
     nodal_von_mises,
     peak_von_mises,
+    peaks_by_region,
     potential,
     reaction,
     rotation,
@@ -101,8 +103,8 @@ def paths() -> Calls:
 def results() -> Calls:
     """What is read from a solution."""
     calls: Calls = {}
-    readers = (strain_energy, potential, folded_elements, contact_forces)
-    for reader in (*readers, nodal_cauchy, nodal_von_mises, peak_von_mises):
+    readers = (strain_energy, potential, folded_elements, contact_forces, membrane_forces)
+    for reader in (*readers, peaks_by_region, nodal_cauchy, nodal_von_mises, peak_von_mises):
         calls |= _each(reader, "solution", (None, *STRANGE), "solution must be")
     calls |= _each(partial(reaction, surface="x0"), "solution", STRANGE, "solution must be")
     calls |= _each(partial(transfer, finer_mesh=BOX), "solution", STRANGE, "solution must be")

@@ -16,6 +16,8 @@ from solver import (
     BodyForce,
     Contact,
     Couple,
+    EdgeForce,
+    Membrane,
     Mesh,
     NodeSpring,
     Ogden,
@@ -33,6 +35,7 @@ from solver.meshing import MeshOptions, mesh_solid
 
 BOX = box_mesh((1, 1, 1))
 PULL = Traction("x1", (0.1, 0.0, 0.0))
+FILM = Membrane("x1", 1.0, 0.3, 0.1)
 Calls = dict[str, tuple[Callable[[], object], str]]
 
 
@@ -67,6 +70,8 @@ def problems() -> Calls:
         sharp_edge_radius=("0.2", None, (0.2,)),
         contacts=(Contact("x1", 0.01, 0), "x1", ("x1",), 0.1),
         springs=(NodeSpring((0.0, 0.0, 0.0), (1.0, 0.0, 0.0)), "x1", (0.1,), 0.1, None),
+        materials=(NEO_HOOKE, (NEO_HOOKE,), {"lid": NEO_HOOKE}, {1: NEO_HOOKE}, "lid", None),
+        membranes=(FILM, "x1", ("x1",), {"x1": FILM}, 0.1, None),
     )
 
 
@@ -127,6 +132,8 @@ def loads() -> Calls:
         for load in (Traction("x1", bad), BodyForce(bad), PointForce((1.0, 1.0, 1.0), bad)):
             problem = _problem(loads=(load,))
             calls[f"{load}"] = (lambda problem=problem: solve(problem), "load")
+        edge = lambda bad=bad: EdgeForce(("x1", "z1"), bad)  # noqa: E731
+        calls[f"edge force {bad!r}"] = (edge, "edge force: force")
         calls[f"stations {bad!r}"] = (lambda bad=bad: SlenderAxis(bad), "stations")
     for bad in ("1", None, (1.0,)):
         calls[f"couple {bad!r}"] = (
@@ -145,6 +152,19 @@ def loads() -> Calls:
         calls[f"surface {bad!r}"] = (
             lambda bad=bad: _problem(loads=(Traction(bad, (0.1, 0.0, 0.0)),)), "surface"
         )  # fmt: skip
+        film = lambda bad=bad: _problem(membranes=(Membrane(bad, 1.0, 0.3, 0.1),))  # noqa: E731
+        calls[f"surface of a film {bad!r}"] = (film, "surface")
+        weight = _problem(loads=(BodyForce((0.0, 0.0, 0.1), bad),))
+        calls[f"region {bad!r}"] = (lambda weight=weight: solve(weight), "no region")
+    calls |= _each(
+        lambda **change: Membrane(
+            **{"surface": "x1", "young_modulus": 1, "poisson_ratio": 0.3, "thickness": 1, **change}
+        ),
+        "membranes: ",
+        young_modulus=("1", None, (1.0,), float("nan"), 0.0),
+        poisson_ratio=("0.3", None, float("nan"), 0.6),
+        thickness=("1", None, float("inf"), -1.0),
+    )
     return calls
 
 
@@ -161,7 +181,13 @@ def meshes() -> Calls:
         nodes=("nodes.csv", None, [["a", "b", "c"]]),
         tets=("tets.csv", None, BOX.tets + 0.5, BOX.tets * float("nan")),
         surfaces=(["x0"], "x0", 3),
+        regions=(["lid"], "lid", 3),
     )
+    for bad in ("lid", None, 0, (), (0.5,), (True,), ((0,),), (0, 0), (-1,), (2**32,), {0}, "0"):
+        region = lambda bad=bad: Mesh(BOX.nodes, BOX.tets, {}, {"lid": bad})  # noqa: E731
+        calls[f"region of {bad!r}"] = (region, "the region 'lid'")
+    wide = BOX.tets.astype(np.int64) + 2**32
+    calls["node numbers of 64 bits"] = (lambda: Mesh(BOX.nodes, wide), "mesh: tets")
     named = {"x0": "x1"}
     calls["a text for triangles"] = (lambda: Mesh(BOX.nodes, BOX.tets, named), "surface 'x0'")
     made = lambda **change: mesh_solid(**{"brep": b"", "face_names": ("a",), **change})  # noqa: E731

@@ -111,9 +111,11 @@ def _loaded(
 
 
 def _goes_on(problem: Problem, former: Problem) -> bool:
-    """Whether a stage has the loads and supports of the one before, and leads nothing on."""
+    """Whether a stage is in equilibrium where the one before ended, and leads nothing on."""
     ours, theirs = (
         (
+            each.material,
+            each.materials,
             each.loads,
             each.supports,
             set(each.pressurised),

@@ -18,10 +18,13 @@ from solver.assembly.membranes.response import as_tensors, components, frames, m
 from solver.mesh.elements import TRIANGLE_EDGES, quadratic_gradients, triangle_rule
 from solver.mesh.mesh import Mesh
 from solver.problem.membranes import Membrane
-from solver.results.solution import Solution, check_solution
+from solver.problem.problem import Problem
 
 COMPRESSED = 0.01
 """Compression, as a share of the largest principal force, from which on a triangle counts."""
+
+UNSTRAINED = 1e-8
+"""Compressive strain up to this one is what a solve leaves."""
 
 
 @dataclass(frozen=True)
@@ -39,12 +42,14 @@ class MembraneForces:
         areas: of the undeformed triangles.
 
             *Shape:* (k,) in mm^2.
+        stiffness: Young's modulus times thickness, N/mm.
     """
 
     surface: str
     principal: Reals
     positions: Reals
     areas: Reals
+    stiffness: float
 
     @property
     def highest(self) -> float:
@@ -58,8 +63,13 @@ class MembraneForces:
 
     @property
     def compressed(self) -> NDArray[np.bool_]:
-        """Triangles (k,) whose smaller force is a compression above 1 % of the largest force."""
-        return np.asarray(self.principal[:, 1] < -COMPRESSED * np.abs(self.principal).max())
+        """Triangles (k,) whose smaller force is a compression above 1 % of the largest force.
+
+        And above 1e-8 of the stiffness, which is what a solve leaves.
+        """
+        largest = float(np.abs(self.principal).max())
+        least = max(COMPRESSED * largest, UNSTRAINED * self.stiffness)
+        return np.asarray(self.principal[:, 1] < -least)
 
     @property
     def warning(self) -> str:
@@ -76,18 +86,9 @@ class MembraneForces:
         )
 
 
-def membrane_forces(solution: Solution) -> tuple[MembraneForces, ...]:
-    """Forces in the membranes of an equilibrium.
-
-    Args:
-        solution: an equilibrium.
-
-    Returns:
-        Those of each of ``Problem.membranes``, in their order.
-    """
-    check_solution(solution)
-    mesh, moved = solution.problem.mesh, solution.displacement
-    return tuple(_forces(mesh, membrane, moved) for membrane in solution.problem.membranes)
+def forces_of(problem: Problem, displacement: Reals) -> tuple[MembraneForces, ...]:
+    """Forces in the membranes of a problem after displacements (n, 3), mm."""
+    return tuple(_forces(problem.mesh, each, displacement) for each in problem.membranes)
 
 
 def _forces(mesh: Mesh, membrane: Membrane, displacement: Reals) -> MembraneForces:
@@ -101,7 +102,8 @@ def _forces(mesh: Mesh, membrane: Membrane, displacement: Reals) -> MembraneForc
     deformed = np.eye(2) + 2 * as_tensors(strain)
     principal = _eigenvalues(stress @ deformed) / np.sqrt(np.linalg.det(deformed))[:, None]
     centres = mesh.nodes[triangles[:, :3]].mean(axis=1)
-    return MembraneForces(membrane.surface, principal, centres, _areas(mesh.nodes, triangles))
+    areas = _areas(mesh.nodes, triangles)
+    return MembraneForces(membrane.surface, principal, centres, areas, membrane.stiffness)
 
 
 def _areas(nodes: Reals, triangles: Integers) -> Reals:

@@ -24,6 +24,7 @@ Meshes = Callable[..., Mesh]
         ({"a": [-1]}, "'a' names element -1"),
         ({"a": [3, 3]}, "'a' names element 3 twice"),
         ({"a": []}, "'a' has no elements"),
+        ({"a": [2**32 + 1]}, "'a' names element 4294967297"),
         ({"": [0]}, "the name of a region must be a text"),
         ({7: [0]}, "the name of a region must be a text"),
         ({"a": [True, False]}, "must be numbers of elements"),

@@ -80,6 +80,21 @@ def test_failure_says_why_and_leaves_no_solution(problem: Problem, solved: Solut
     assert again.solution.rotation == pytest.approx(solved.rotation, rel=1e-6)
 
 
+def test_other_regions_are_no_neighbour(problem: Problem, solved: Solution) -> None:
+    """Even where there are as many pressures as there were."""
+    halves = [np.arange(len(problem.mesh.tets)) % 2 == k for k in (0, 1)]
+    one, other = (
+        replace(
+            problem, mesh=problem.mesh.with_regions({"half": np.flatnonzero(half).astype(np.int32)})
+        )
+        for half in halves
+    )
+    with pytest.raises(SolverError, match="same regions"):
+        neighbouring(one, 0.1, solved)
+    with pytest.raises(SolverError, match="same regions"):
+        neighbouring(one, 0.1, replace(solved, problem=other))
+
+
 def test_other_tetrahedra_are_no_neighbour(problem: Problem, solved: Solution) -> None:
     mesh = problem.mesh
     fewer = Mesh(mesh.nodes, mesh.tets[::-1], dict(mesh.surfaces))

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from inertia import needs_inertia
 from numpy.typing import NDArray
+from two_materials import HARD, layered
 
 from solver import (
     Mesh,
@@ -175,6 +176,24 @@ def test_a_column_that_its_support_drops_is_said_to_be_unstable_from_the_start(b
     assert held.converged and not dropped.converged and dropped.load == 0
     assert dropped.stable is False and "the stage begins with is unstable" in dropped.message
     assert np.array_equal(dropped.displacement, held.displacement)
+
+
+def test_a_stage_with_other_materials_is_left_by_what_they_do_not_bear(box: Meshes) -> None:
+    mesh = layered()
+    problem = pulled_across(mesh, 0.7)
+    stiffer = replace(problem, materials={"hard": HARD})
+    first = solve(problem, options=TIGHT)
+    then, at_once = solve(stiffer, options=TIGHT, after=first), solve(stiffer, options=TIGHT)
+    assert np.abs(first.displacement - at_once.displacement).max() > 0.1
+    assert then.displacement == pytest.approx(at_once.displacement, abs=1e-8)
+
+
+def test_a_stage_with_other_regions_is_refused(box: Meshes) -> None:
+    mesh = layered()
+    plain, layers = (solve(pulled_across(each, 0.1)) for each in (replace(mesh, regions={}), mesh))
+    for first, then in ((plain, layers), (layers, plain)):
+        with pytest.raises(SolverError, match=r"after: .* the same regions; it has others"):
+            solve(then.problem, after=first)
 
 
 def test_a_stage_on_another_mesh_is_refused(box: Meshes) -> None:

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from inertia import needs_inertia
-from meshes import mapped_box, sphere_mesh, tube_mesh
+from meshes import cell_mesh, mapped_box, sphere_mesh, tube_mesh
 from thick_walls import (
     closed_tube_at,
     highest_in_closed_tube,
@@ -17,6 +17,7 @@ from thick_walls import (
     sphere_pressure,
     tube_state,
 )
+from two_materials import HARD, beyond
 
 from solver import (
     Contact,
@@ -312,6 +313,26 @@ def test_a_volume_goes_on_from_a_pressure_with_other_loads_applied_first() -> No
     assert on.converged and on.path[0].pressure == pytest.approx(0.05)
     assert on.pressure == pytest.approx(at_once.pressure, rel=1e-6)
     assert on.displacement == pytest.approx(at_once.displacement, abs=1e-6)
+
+
+def test_a_volume_goes_on_from_a_stage_with_other_materials() -> None:
+    """They meet the pressure first: the volume starts from where that leaves them."""
+    cells = np.ones((3, 2, 3), int)
+    cells[1, 0, 1] = 2
+    mesh = cell_mesh(cells, [np.arange(4.0), np.array([0, 1.0, 1.6]), np.array([0, 0.6, 1.6, 2.0])])
+    mesh = mesh.with_regions({"lid": beyond(mesh, 2, 1.6)})
+    soft = Problem(mesh, Ogden.neo_hooke(1.0), Supports(("x0",), {"y0": 1}), ("cavity",))
+    stiff = replace(soft, materials={"lid": HARD})
+    first, there = solve(soft, 0.1), solve(stiff, 0.1)
+    before, start = first.path[-1].volume, there.path[-1].volume
+    assert start < before - 1e-3
+    goal = before + 0.1 * (before - start)
+    found = inflate(stiff, goal, after=first)
+    assert found.converged, found.message
+    loaded = next(point for point in found.path if point.load == 1)
+    assert loaded.pressure == pytest.approx(0.1)
+    assert loaded.volume == pytest.approx(start, rel=1e-6)
+    assert found.pressure == pytest.approx(inflate(stiff, goal).pressure, rel=1e-6)
 
 
 def test_states_at_stops_are_whole_solutions(tmp_path: Path) -> None:

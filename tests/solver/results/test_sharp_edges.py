@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
+from meshes import FACES as SIDES
 from numpy.typing import NDArray
 
 from solver import Mesh, Ogden, Problem, Supports, nodal_von_mises, peak_von_mises, solve
@@ -41,6 +42,23 @@ def test_nodes_near_a_reentrant_edge_are_left_out_and_no_others(cells: Meshes) -
     near = from_line(mesh, 1.0, 1.0) < RADIUS
     assert 0 < near.sum() < len(near) / 4
     assert np.array_equal(trusted_nodes(problem(mesh, RADIUS, "x1")), ~near)
+
+
+@pytest.mark.parametrize("height", [0.5, 1.0, 1.5])
+@pytest.mark.parametrize("above", [True, False])
+def test_a_surface_within_the_body_makes_no_edge_and_hides_none(
+    cells: Meshes, height: float, above: bool
+) -> None:
+    """Between two regions, with normals to either side, named before or after the outer ones."""
+    mesh = notched(cells)
+    middles = mesh.nodes[mesh.tets[:, :4], 2].mean(axis=1)
+    faces = np.concatenate([mesh.tets[(middles > height) == above][:, face] for face in SIDES])
+    inner = {"between": faces[(mesh.nodes[faces[:, :3], 2] == height).all(axis=1)]}
+    inner["between"] = inner["between"][mesh.nodes[inner["between"][:, :3], 0].max(axis=1) <= 1.0]
+    wanted = trusted_nodes(problem(mesh, RADIUS))
+    for surfaces in ({**inner, **mesh.surfaces}, {**mesh.surfaces, **inner}):
+        found = trusted_nodes(problem(Mesh(mesh.nodes, mesh.tets, surfaces), RADIUS))
+        assert np.array_equal(found, wanted)
 
 
 @pytest.mark.parametrize("place", [(2.0, 1.0), (1.0, 2.0), (0.0, 2.0), (2.0, 0.0)])

@@ -97,6 +97,15 @@ def test_each_region_has_its_own_peak(parallel: Solution) -> None:
     assert parallel.path[-1].max_von_mises == highest.value
 
 
+def test_a_region_that_lies_all_near_sharp_edges_has_a_peak_all_the_same(
+    parallel: Solution,
+) -> None:
+    """A film within the radius around a clamp's rim: none of its nodes is farther away."""
+    held = replace(parallel.problem, supports=Supports(("x1",)), sharp_edge_radius=10.0)
+    peaks = peaks_by_region(replace(parallel, problem=held))
+    assert peaks == peaks_by_region(parallel)
+
+
 def test_a_node_of_the_interface_shows_the_higher_stress(parallel: Solution) -> None:
     mesh = parallel.problem.mesh
     stress = STRETCH**2 - 1 / STRETCH

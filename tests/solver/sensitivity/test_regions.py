@@ -12,6 +12,7 @@ from resolved import TIGHT, by_material, by_pressure, by_velocity
 from two_materials import OTHER, beyond
 
 from solver import (
+    BodyForce,
     Gradients,
     Ogden,
     Problem,
@@ -32,14 +33,20 @@ RUBBER = Ogden((0.8,), (2.5,), 40.0)
 
 @cache
 def blown() -> tuple[Solution, Gradients]:
-    """Half a hollow block with a stiff lid of another law, blown up against a plane."""
+    """Half a hollow block with a stiff, heavy lid of another law, blown up against a plane."""
     cells = np.ones((3, 2, 3), int)
     cells[1, 0, 1] = 2
     mesh = cell_mesh(cells, [np.arange(4.0), np.array([0, 1.0, 1.6]), np.array([0, 0.6, 1.6, 2.0])])
     mesh = mesh.with_regions({"lid": beyond(mesh, 2, 1.6)})
     mesh = mesh.with_surfaces({"tip": mesh.surfaces["x1"]})
+    weight = BodyForce((0.0, 0.0, -0.05), region="lid")
     problem = Problem(
-        mesh, RUBBER, Supports(("x0",), {"y0": 1}), ("cavity",), materials={"lid": OTHER}
+        mesh,
+        RUBBER,
+        Supports(("x0",), {"y0": 1}),
+        ("cavity",),
+        loads=(weight,),
+        materials={"lid": OTHER},
     )
     found = solve(problem, 0.12, TIGHT)
     assert found.converged, found.message

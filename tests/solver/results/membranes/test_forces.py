@@ -127,3 +127,22 @@ def test_a_film_on_the_inner_side_of_a_bend_is_said_to_wrinkle(box: Meshes) -> N
     assert forces.principal[:, 1] == pytest.approx(-borne, rel=0.1)
     assert "the membrane 'z0' is compressed over 100 % of its area" in forces.warning
     assert "a real film wrinkles there" in forces.warning
+    assert solution.warnings == (forces.warning,)
+
+
+def test_what_a_solve_leaves_in_a_film_that_is_not_strained_is_no_compression(box: Meshes) -> None:
+    """A block is led along with its film and turned: nothing is strained but by rounding."""
+
+    def turned(places: Array, load: float) -> Array:
+        c, s = np.cos(2 * load), np.sin(2 * load)
+        return places @ np.array([[c, s, 0], [-s, c, 0], [0, 0, 1]]) - places
+
+    supports = Supports(prescribed={"x0": turned})
+    problem = Problem(
+        box(), Ogden.neo_hooke(1.0), supports, membranes=(Membrane("z1", 2e3, 0.3, 0.1),)
+    )
+    solution = solve(problem)
+    (forces,) = membrane_forces(solution)
+    assert forces.lowest < 0
+    assert not forces.compressed.any()
+    assert solution.warnings == ()
