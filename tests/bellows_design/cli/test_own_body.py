@@ -54,4 +54,4 @@ def test_options_of_bellows_are_refused_in_one_sentence(
 
 def test_other_commands_say_that_they_take_bellows_only(bellows: Bellows, file: str) -> None:
     status, _, err = bellows("run", file)
-    assert status == 2 and "is a body of one's own, which only evaluate takes" in err
+    assert status == 2 and "is a body of one's own, which only evaluate and compare take" in err
