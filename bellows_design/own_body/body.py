@@ -30,7 +30,7 @@ from bellows_design.own_body.selection import (
     require_surface,
     selections_of,
 )
-from bellows_design.own_body.symmetry import require_planes, require_symmetric
+from bellows_design.own_body.symmetry import require_planes
 from bellows_design.validation.labelled import Labelled
 from bellows_design.validation.parameters import require
 from bellows_design.validation.quoting import quoted
@@ -169,7 +169,6 @@ class OwnBody(BodyRecord, Labelled):
             self.gravity is None or not bare,
             f"gravity needs the density_kg_m3 of every part; {quoted(''.join(bare[:1]))} has none",
         )
-        require_symmetric(self.gravity, self.supports.symmetry)
         return self
 
     @model_validator(mode="after")

@@ -1,4 +1,4 @@
-"""What planes of symmetry ask of a body: plane faces, and loads that are symmetric, too."""
+"""What planes of symmetry ask of a body: plane faces, and weight along them."""
 
 from __future__ import annotations
 
@@ -60,14 +60,14 @@ def _is_normal_to(face: cq.Face, axis: Axis) -> bool:
     return face.geomType() == "PLANE" and abs(normal[AXES[axis]]) > 1 - ALIGNED
 
 
-def require_symmetric(gravity: Gravity | None, symmetry: Mapping[str, Axis]) -> None:
-    """Raise ``ValueError`` for a weight whose mirror image in a plane acts another way."""
+def against_symmetry(gravity: Gravity | None, symmetry: Mapping[str, Axis]) -> Iterator[str]:
+    """Sentences on a weight whose mirror image in a plane acts another way."""
     if gravity is None:
         return
     direction = np.array(gravity.direction) / np.linalg.norm(gravity.direction)
     for name, axis in symmetry.items():
-        require(
-            abs(direction[AXES[axis]]) < ALIGNED,
-            f"gravity.direction must lie in the plane of symmetry {quoted(name)}, normal to "
-            f"{axis}: else the other half hangs otherwise; model the whole body",
-        )
+        if abs(direction[AXES[axis]]) > ALIGNED:
+            yield (
+                f"gravity acts across the plane of symmetry {quoted(name)}: the result is that of "
+                "a body that slides along it, not of half of a whole one, which hangs otherwise."
+            )

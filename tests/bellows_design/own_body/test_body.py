@@ -111,7 +111,6 @@ def test_a_body_is_frozen_and_has_a_hash() -> None:
             {"surfaces": {**NAMED, "middle": "|Y and (not <Y[1])"}},
             "“middle” must lie in one plane normal to y",
         ),
-        ({"gravity": {"direction": [0, -1, -1]}}, "gravity.direction must lie in the plane of"),
         ({"surfaces": {**NAMED, "cavity": 5}}, "a surface is 5 but must be a selector, a table"),
         (
             {"surfaces": {**NAMED, "cavity": {"inter": True}}},
