@@ -65,7 +65,7 @@ class PlannedMesh:
             raise DesignError(
                 f"the mesh would have {self.summary}, above the limit of {budget.memory:.3g} GiB; "
                 "allow more with --memory if there is more, or make the thinnest wall thicker, "
-                "the actuator smaller or the model a unit-cell."
+                "the actuator smaller or the model a unit-cell; of an own body mesh.size larger."
             )
         return self.solid.meshed(self.options, budget.mesh_seconds)
 

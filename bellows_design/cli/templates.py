@@ -16,6 +16,7 @@ from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
 from bellows_design.cli.own_body.template import body_template
+from bellows_design.validation.file_names import names_a_file
 from bellows_design.validation.sentences import nested_model
 
 DESIGN, PRINTER, MATERIAL = "finger", "prusa_i3", "ninjaflex"
@@ -37,9 +38,6 @@ EXAMPLES: Mapping[str, Any] = {
 """Values for keys that the shipped ones leave out and that have no default."""
 
 _BOUNDS = (("ge", "at least"), ("gt", "above"), ("le", "at most"), ("lt", "below"))
-
-
-_DEVICE = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)", re.IGNORECASE)  # of Windows
 
 
 class Kind(StrEnum):
@@ -67,7 +65,7 @@ def template(kind: Kind, name: str) -> str:
 def name_from(stem: str) -> str:
     """A name that files and folders may have, close to ``stem``."""
     slug = re.sub(r"[^A-Za-z0-9_-]+", "_", stem)[:64].lstrip("-")
-    return f"my_{slug}" if not slug or _DEVICE.fullmatch(slug) else slug
+    return slug if names_a_file(slug) else f"my_{slug}"
 
 
 def _design() -> tuple[list[str], type[BaseModel], dict[str, Any]]:

@@ -31,8 +31,9 @@ from bellows_design.errors import DesignError
 from bellows_design.files.toml_files import toml_table
 from bellows_design.materials.library import load_material, material_at, material_names
 from bellows_design.materials.material import Material
-from bellows_design.validation.file_names import SLUG, require_file_name
-from bellows_design.validation.parameters import Parameters, require
+from bellows_design.validation.file_names import SLUG
+from bellows_design.validation.labelled import Labelled
+from bellows_design.validation.parameters import require
 from bellows_design.validation.quoting import did_you_mean, quoted
 from bellows_design.validation.sentences import sentences
 from printers import PrinterProfile, PrintersError, load_profile, profile_from_table
@@ -50,7 +51,7 @@ def _profile_of(table: Mapping[str, Any]) -> PrinterProfile:
         raise ValueError(f"printer: {error}") from None
 
 
-class Design(Parameters):
+class Design(Labelled):
     """A bellows actuator and the conditions it must meet, as one frozen value.
 
     Attributes:
@@ -73,8 +74,6 @@ class Design(Parameters):
             each problem.
     """
 
-    name: str = Field(description="letters, digits, _ and -, at most 64; names files and folders")
-    description: str = Field(default="", max_length=2000, description="one line of text")
     bellows: BellowsParameters
     indent: Indent | None = None
     port: Port = Field(default_factory=Port)
@@ -94,12 +93,6 @@ class Design(Parameters):
         description="what stands around the actuator where it exerts forces",
         examples=[{"desk": {"kind": "blocked", "support": "wall", "distance": 8.0}}],
     )
-
-    def __init__(self, /, **data: Any) -> None:  # "self" may be a key of the file
-        try:
-            super().__init__(**data)
-        except ValidationError as error:
-            raise DesignError(*sentences(error, type(self))) from None
 
     @classmethod
     def of(cls, data: Mapping[str, Any]) -> Self:
@@ -164,21 +157,6 @@ class Design(Parameters):
         fields = type(self).model_fields
         defaults = {name: fields[name].get_default(call_default_factory=True) for name in unread}
         return self.model_copy(update=defaults)
-
-    @field_validator("name")
-    @classmethod
-    def _names_a_file(cls, name: str) -> str:
-        require_file_name(name)
-        return name
-
-    @field_validator("description")
-    @classmethod
-    def _is_printable(cls, description: str) -> str:
-        require(
-            description.isprintable(),
-            f"description is {quoted(description)} but must be printable text on one line",
-        )
-        return description
 
     @field_validator("printer", mode="before")
     @classmethod

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +19,11 @@ def shipped_designs() -> tuple[str, ...]:
     return LIBRARY.names()
 
 
+def is_own_body(table: Mapping[str, Any]) -> bool:
+    """Whether a table of a file is that of a body of one's own: it has parts and no bellows."""
+    return "parts" in table and "bellows" not in table
+
+
 def load_design(name_or_path: str | Path) -> Design:
     """The shipped design of that name, else the design in the TOML file at that path.
 
@@ -31,10 +37,10 @@ def load_design(name_or_path: str | Path) -> Design:
             problem.
     """
     table, path = LIBRARY.named_or_at(name_or_path), LIBRARY.path_of(name_or_path)
-    if "parts" in table and "bellows" not in table:
+    if is_own_body(table):
         raise DesignError(
-            f"{quoted_path(name_or_path)} is a body of one's own, which only evaluate takes; here "
-            "a design of bellows is needed."
+            f"{quoted_path(name_or_path)} is a body of one's own, which only evaluate and compare "
+            "take; here a design of bellows is needed."
         )
     return Design.of(table if path is None else _with_files_from(path.parent, table))
 

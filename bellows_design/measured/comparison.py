@@ -19,6 +19,8 @@ from solver.arrays import Reals
 
 MARGIN = 1.3
 """Times the highest measured pressure: so far the model is asked at first."""
+MOST_PERCENT = 50.0
+"""Of an uncertainty of the material, for whose softest end the model is asked further."""
 MOST_CURVES = 3
 """That are asked, each further than the one before."""
 DEGREES = 57.29577951308232
@@ -127,7 +129,7 @@ class Comparison:
 
     @cached_property
     def inside(self) -> NDArray[np.bool_]:
-        """(n,) which points lie in the model's band as designed; none of those it does not reach.
+        """(n,) which points lie in the model's band as designed; none that the band does not reach.
 
         The point that both are counted from lies in it by definition.
         """
@@ -137,10 +139,17 @@ class Comparison:
             result: NDArray[np.bool_] = (value >= low - room) & (value <= high + room)
         return result
 
+    @cached_property
+    def judged(self) -> NDArray[np.bool_]:
+        """(n,) which points the model's band as designed reaches, its soft end included."""
+        low, high = self.band(self.pressure)
+        known: NDArray[np.bool_] = np.isfinite(low) & np.isfinite(high)
+        return known
+
     @property
     def reached(self) -> int:
-        """How many points the model reaches as designed."""
-        return int(np.isfinite(self.values).sum())
+        """How many points the model's band as designed reaches."""
+        return int(self.judged.sum())
 
 
 def compare(
@@ -165,7 +174,8 @@ def compare(
     """
     measured = _zeroed(measured, options.zero_at)
     zero = options.zero_at
-    highest = MARGIN * float(np.abs(measured.pressure).max())
+    percent = _stated_percent(material, options)
+    highest = _margin(percent) * float(np.abs(measured.pressure).max())
     model, fitted = asked(highest), without_fit(measured)
     if zero is not None and model.reach(1.0) < zero:
         raise DesignError(
@@ -178,8 +188,7 @@ def compare(
         if not options.fit:
             break
         fitted = fit_factor(measured, counted, options.offset, zero)
-        enough = fitted.used.all() or fitted.wanted <= 1.02 * model.reach(1.0)
-        if model.ending or enough or fitted.wanted <= highest:
+        if model.ending or fitted.wanted <= max(highest, 1.02 * model.reach(1.0)):
             break
         highest, model = fitted.wanted, asked(fitted.wanted)
     factor, offset = _value_and_offset(fitted)
@@ -189,10 +198,16 @@ def compare(
         measured=measured,
         model=counted,
         fitted=fitted,
-        material_percent=_stated_percent(material, options),
+        material_percent=percent,
         departures=departures(measured, counted, factor, offset),
         zero_at=zero,
     )
+
+
+def _margin(percent: float | None) -> float:
+    """Times the highest measured pressure: so far the band reaches, too, of most materials."""
+    softest = 1 - min(percent or 0.0, MOST_PERCENT) / 100
+    return max(MARGIN, 1.01 / softest)
 
 
 def _value_and_offset(fitted: Fitted) -> tuple[float, float]:

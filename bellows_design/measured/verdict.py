@@ -100,7 +100,7 @@ def _limits(found: Comparison) -> list[str]:
         said.append(
             f"{factor.beyond} points at the highest pressures tell nothing of the factor: {why}."
         )
-    elif found.model.ending and factor is None and found.reached < found.measured.value.size:
+    elif _ends_early(found):
         said.append(f"{found.model.ending[0].upper()}{found.model.ending[1:]}.")
     if factor is not None and factor.offset is not None:
         unit = found.measured.quantity.unit
@@ -113,6 +113,13 @@ def _limits(found: Comparison) -> list[str]:
             "and pressure before you believe it."
         )
     return said
+
+
+def _ends_early(found: Comparison) -> bool:
+    """Whether the model's end is the reason for what is missing, and not said with the factor."""
+    ending, refused = found.model.ending, found.fitted.refused
+    short = found.reached < found.measured.value.size
+    return bool(ending) and found.factor is None and short and ending not in refused
 
 
 def _number(value: float) -> str:

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping
 from functools import cached_property
 from typing import Any, Self
 
-from pydantic import Field, ValidationError, field_validator, model_validator
+from pydantic import Field, field_validator, model_validator
 
 from bellows_design.errors import DesignError
 from bellows_design.own_body.conditions import (
@@ -30,10 +30,10 @@ from bellows_design.own_body.selection import (
     require_surface,
     selections_of,
 )
-from bellows_design.validation.file_names import require_file_name
+from bellows_design.own_body.symmetry import require_planes
+from bellows_design.validation.labelled import Labelled
 from bellows_design.validation.parameters import require
 from bellows_design.validation.quoting import quoted
-from bellows_design.validation.sentences import sentences
 
 TIP, CAVITY = "tip", "cavity"
 """Surfaces with a meaning: whose rotation is the bending angle, and what is under pressure."""
@@ -42,7 +42,7 @@ TIP, CAVITY = "tip", "cavity"
 MOST_PARTS = 50
 
 
-class OwnBody(BodyRecord):
+class OwnBody(BodyRecord, Labelled):
     """A body of one's own with all that decides how it deforms, as one frozen value.
 
     Attributes:
@@ -64,8 +64,6 @@ class OwnBody(BodyRecord):
             for each problem.
     """
 
-    name: str = Field(description="letters, digits, _ and -, at most 64")
-    description: str = Field(default="", max_length=2000, description="one line of text")
     parts: tuple[BodyPart, ...]
     surfaces: dict[str, tuple[Selection, ...]] = Field(default_factory=dict)
     supports: BodySupports = Field(default_factory=BodySupports)
@@ -76,12 +74,6 @@ class OwnBody(BodyRecord):
     obstacles: tuple[Obstacle, ...] = ()
     tip: Tip = Field(default_factory=Tip)
     mesh: BodyMesh = Field(default_factory=BodyMesh)
-
-    def __init__(self, /, **data: Any) -> None:  # "self" may be a key of the file
-        try:
-            super().__init__(**data)
-        except ValidationError as error:
-            raise DesignError(*sentences(error, type(self))) from None
 
     @classmethod
     def of(cls, data: Mapping[str, Any]) -> Self:
@@ -133,21 +125,6 @@ class OwnBody(BodyRecord):
         text = json.dumps([content, shapes], sort_keys=True, allow_nan=False)
         return hashlib.sha256(text.encode("ascii")).hexdigest()
 
-    @field_validator("name")
-    @classmethod
-    def _names_a_file(cls, name: str) -> str:
-        require_file_name(name)
-        return name
-
-    @field_validator("description")
-    @classmethod
-    def _is_printable(cls, description: str) -> str:
-        require(
-            description.isprintable(),
-            f"description is {quoted(description)} but must be printable text on one line",
-        )
-        return description
-
     @field_validator("surfaces", mode="before")
     @classmethod
     def _surfaces_of_text(cls, value: Any) -> Any:
@@ -196,7 +173,7 @@ class OwnBody(BodyRecord):
 
     @model_validator(mode="after")
     def _faces_have_names(self) -> Self:
-        _ = self.face_names
+        require_planes(self.supports.symmetry, self.parts, self.face_names)
         return self
 
     def _named(self) -> Iterator[tuple[str, str]]:

@@ -6,6 +6,7 @@ from typing import Literal
 
 from pydantic import Field, field_validator, model_validator
 
+from bellows_design.design.conditions import ATMOSPHERE
 from bellows_design.own_body.record import BodyRecord, Names, Vector
 from bellows_design.validation.parameters import require
 
@@ -13,6 +14,9 @@ Axis = Literal["x", "y", "z"]
 
 AXES = {"x": 0, "y": 1, "z": 2}
 """Their numbers."""
+
+HIGHEST_PRESSURE = 2.0
+"""MPa."""
 
 MOST_POINTS = 200
 
@@ -46,7 +50,7 @@ class BodyLoad(BodyRecord):
     """
 
     pressure: float | None = Field(
-        default=None, ge=-0.101325, le=2.0, json_schema_extra={"unit": "MPa"}
+        default=None, ge=-ATMOSPHERE, le=HIGHEST_PRESSURE, json_schema_extra={"unit": "MPa"}
     )
     largest_volume: float | None = Field(default=None, gt=0, le=1000)
     points: int = Field(default=12, ge=1, le=MOST_POINTS)
@@ -128,7 +132,8 @@ class Tip(BodyRecord):
     Attributes:
         point: Whose displacement is read, in the undeformed body, mm; without it the mean of the
             surface ``tip``.
-        base: Where the chord to the tip begins, mm; without it the mean of the clamped surfaces.
+        base: Where the chord to the tip begins, mm; without it the mean of the first clamped
+            surface.
     """
 
     point: Vector | None = None
@@ -140,8 +145,8 @@ class BodyMesh(BodyRecord):
 
     Attributes:
         size: Longest edge; without it four thirds of the mean thickness, twice volume over area.
-        sharp_edge_radius: How near to sharp edges no stress is reported; without it a quarter of
-            the size, at most 0.4.
+        sharp_edge_radius: How near to sharp edges no stress is reported; without it three
+            sixteenths of the size, at most 0.4.
     """
 
     size: float | None = Field(default=None, gt=0, le=1000, json_schema_extra={"unit": "mm"})

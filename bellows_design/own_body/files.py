@@ -23,11 +23,6 @@ LARGEST_STEP = 256 * 2**20
 """Bytes."""
 
 
-def is_body(table: Mapping[str, Any]) -> bool:
-    """Whether a table of a file is one of an own body: it has parts."""
-    return "parts" in table
-
-
 def load_body(path: str | Path) -> OwnBody:
     """The own body in a TOML file.
 
@@ -70,7 +65,8 @@ def _part(
     if type(number) is not int or not 0 <= number < len(solids):
         raise DesignError(
             f"parts.solid is {quoted(number)} but must be a whole number from 0 to "
-            f"{len(solids) - 1}: {quoted_path(path)} holds {len(solids)} solids."
+            f"{len(solids) - 1}: {quoted_path(path)} holds {len(solids)} "
+            f"solid{'s' * (len(solids) > 1)}."
         )
     material = left.get("material")
     if isinstance(material, str) and material.endswith(".toml"):

@@ -11,7 +11,7 @@ from pydantic import Field, field_validator
 from bellows_design.errors import DesignError
 from bellows_design.own_body.record import BodyRecord, Vector
 from bellows_design.validation.parameters import require
-from bellows_design.validation.quoting import did_you_mean, quoted, quoted_reason
+from bellows_design.validation.quoting import did_you_mean, quoted
 
 if TYPE_CHECKING:
     import cadquery as cq
@@ -54,6 +54,11 @@ class Selection(BodyRecord):
 def selections_of(value: Any) -> Any:
     """What a file says of a surface: a selector, a table, or a list of these, as a tuple."""
     given = value if isinstance(value, list | tuple) else (value,)
+    for each in given:
+        require(
+            isinstance(each, str | Mapping | Selection),
+            f"a surface is {quoted(each)} but must be a selector, a table or a list of these",
+        )
     return tuple({"select": each} if isinstance(each, str) else each for each in given)
 
 
@@ -125,9 +130,10 @@ def _chosen(
         return left
     try:
         found = _selector(selection.select).filter([faces[place].face for place in left])
-    except (IndexError, ValueError) as error:  # such as <X[9] of three
+    except (IndexError, ValueError):  # such as <X[9] of three
         raise DesignError(
-            f"surfaces.{name}: {quoted(selection.select)} chooses no face: {quoted_reason(error)}."
+            f"surfaces.{name}: {quoted(selection.select)} chooses no face of the {len(left)} that "
+            "there are."
         ) from None
     return [place for place in left if any(faces[place].face is each for each in found)]
 
@@ -149,10 +155,9 @@ def _selector(text: str) -> Any:
     grammar: Any = selectors  # it carries no types
     try:
         return grammar.StringSyntaxSelector(text)
-    except (ParseException, RecursionError, ValueError, KeyError) as error:
-        reason = f": {quoted_reason(error)}" if isinstance(error, ParseException) else ""
+    except (ParseException, RecursionError, ValueError, KeyError):
         raise ValueError(
-            f"{quoted(text)} is no selector of CadQuery's, such as >X or |Z{reason}"
+            f"{quoted(text)} is no selector of CadQuery's, such as >X, |Z or >X and (not >Z)"
         ) from None
 
 

@@ -8,7 +8,7 @@ the keys that look alike.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, get_args
 
 from pydantic import BaseModel, ValidationError
@@ -142,14 +142,24 @@ def _unit_of(field: FieldInfo | None) -> str | None:
 
 
 def _model(model: type[BaseModel], names: Sequence[str]) -> type[BaseModel]:
-    """The model that ``names`` lead to from ``model``; the deepest one known."""
+    """The model that ``names`` lead to from ``model``; the deepest one known.
+
+    Numbers of a list's tables, and free names of tables, lead no further.
+    """
     for name in names:
         field = model.model_fields.get(name)
-        inner = nested_model(field) if field is not None else None
-        if inner is None:
-            break
-        model = inner
+        inner = set() if field is None else set(_models_in(field.annotation))
+        if len(inner) == 1:
+            model = inner.pop()
     return model
+
+
+def _models_in(annotation: Any) -> Iterator[type[BaseModel]]:
+    """The models in a type: itself, of its items, of its alternatives."""
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        yield annotation
+    for part in get_args(annotation):
+        yield from _models_in(part)
 
 
 def _unit_hint(value: object, field: FieldInfo | None, unit: str | None) -> str:

@@ -25,15 +25,15 @@ def body_named(options: DesignOptions, model: str, derivatives: bool) -> OwnBody
 
     Raises ``DesignError``.
     """
-    from bellows_design.design.shipped import LIBRARY
+    from bellows_design.design.shipped import LIBRARY, is_own_body
     from bellows_design.files.toml_files import read_toml
-    from bellows_design.own_body.files import body_of, is_body
+    from bellows_design.own_body.files import body_of
 
     path = LIBRARY.path_of(options.name)
     if path is None:
         return None
     table = read_toml(path, str(path), "design")
-    if not is_body(table):
+    if not is_own_body(table):
         return None
     _require_no_options_of_bellows(options, model, derivatives)
     return body_of(table, path.parent)

@@ -67,7 +67,7 @@ pressure = 0.01
 [tip]
 # place whose displacement is read, mm; without it the mean of the surface tip
 # point = [40.0, 0.0, 0.0]
-# place where the chord to the tip begins, mm; without it the mean of the clamped surface
+# place where the chord to the tip begins, mm; without it the mean of the first clamped surface
 # base = [0.0, 0.0, 0.0]
 
 # the first mesh (optional)

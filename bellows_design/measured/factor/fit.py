@@ -115,7 +115,9 @@ def fit_factor(
     while int(used.sum()) >= FEWEST_POINTS:
         found = _likelihood(measured.at(used), model, offset, zero, start)
         if found.cut[0] < NEGLIGIBLE:
-            return _fitted(found, measured, model, used, counted, offset, wanted)
+            whole = bool((used == counted).all())
+            least = float(pressure.max()) if whole else wanted
+            return _fitted(found, measured, model, used, counted, offset, least)
         used = used & (pressure < 0.9 * pressure[used].max())
     return Fitted(None, _unreached(model, measured), nobody, wanted)
 

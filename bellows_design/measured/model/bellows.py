@@ -12,7 +12,7 @@ from bellows_design.design.conditions import ATMOSPHERE, LEAST_PRESSURE
 from bellows_design.design.design import Design
 from bellows_design.design.scenes.free import Free
 from bellows_design.design.scenes.scene import BUILT_IN, Scene
-from bellows_design.errors import DesignError
+from bellows_design.errors import UnreachedError
 from bellows_design.measured.calibrated import with_stiffness
 from bellows_design.measured.model.curve import (
     BetweenFactors,
@@ -104,7 +104,7 @@ class BellowsModel:
         if not found.converged:
             ending = _ended(found.pressure_mpa, found.message)
             if abs(found.pressure_mpa) * WITHIN < LEAST_PRESSURE:
-                raise DesignError(f"the model of {design.name} reaches no pressure: {ending}")
+                raise UnreachedError(f"the model of {design.name} reaches no pressure: {ending}.")
             found = self._evaluated(design, question, WITHIN * abs(found.pressure_mpa))
         points = [(each.pressure_mpa, each.bending_angle_deg) for each in found.curve]
         percent = found.error_estimate.bending_angle_percent
@@ -153,7 +153,7 @@ class BellowsModel:
             progress=self.progress, budget=self.budget, store=self.store,
         )  # fmt: skip
         if abs(found.last.pressure_mpa) < LEAST_PRESSURE:
-            raise DesignError(f"the model of {design.name} reaches no pressure: {found.message}")
+            raise UnreachedError(f"the model of {design.name} reaches no pressure: {found.message}")
         return found
 
 

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from bellows_design.budget import Budget
-from bellows_design.errors import DesignError
+from bellows_design.design.conditions import ATMOSPHERE
+from bellows_design.errors import DesignError, UnreachedError
 from bellows_design.materials.material import Material
 from bellows_design.measured.calibrated import with_stiffness
 from bellows_design.measured.model.course import of_slow_rise
@@ -29,11 +30,10 @@ from bellows_design.measured.model.question import (
 from bellows_design.measured.quantities import ANGLE, CHORD, FORCE, Quantity
 from bellows_design.own_body import BodyEvaluation, BodyLoad, OwnBody
 from bellows_design.own_body.analysis.readings import BodyReading
+from bellows_design.own_body.conditions import HIGHEST_PRESSURE
 from bellows_design.progress import Progress
 from bellows_design.validation.quoting import did_you_mean, quoted
-
-HIGHEST, DEEPEST = 2.0, 0.101325
-"""MPa. The highest pressure of a body, and the deepest vacuum."""
+from solver.arrays import Reals
 
 LEAST_PRESSURE = 1e-5
 """MPa."""
@@ -75,7 +75,7 @@ class BodyModel:
     @property
     def materials(self) -> int:
         """How many different materials are in question."""
-        return len({each.material.name for each in self.body.parts if self._scaled(each.name)})
+        return len({each.material for each in self.body.parts if self._scaled(each.name)})
 
     def curve(self, question: Question, highest: float) -> ModelCurve:
         """The curve up to a size of pressure, MPa; of a body under a volume as far as that.
@@ -83,7 +83,7 @@ class BodyModel:
         Raises:
             BellowsError, MeshingError, SolverError: As ``evaluate``.
         """
-        most = HIGHEST if question.sign > 0 else DEEPEST
+        most = HIGHEST_PRESSURE if question.sign > 0 else ATMOSPHERE
         asked, by_force = min(highest, most), question.quantity.by_force
         if not self._rests_on_more:
             return ScaledByPressure(self._stored(1.0, question, asked), by_force)
@@ -120,7 +120,7 @@ class BodyModel:
                 f"the model's load path ends at {reached:.4g} MPa ({found.message.rstrip('.')})"
             )
             if WITHIN * reached < LEAST_PRESSURE:
-                raise DesignError(f"the model of {body.name} reaches no pressure: {ending}.")
+                raise UnreachedError(f"the model of {body.name} reaches no pressure: {ending}.")
             found = self._evaluated(body, question, WITHIN * reached)
         return _curve(found, question, ending)
 
@@ -142,14 +142,17 @@ class BodyModel:
 
 def _curve(found: BodyEvaluation, question: Question, ending: str) -> StoredCurve:
     rest = [] if found.body.gravity is not None else [(0.0, 0.0)]
-    read = [(abs(each.pressure_mpa), each) for each in found.curve]
+    read = [(question.sign * each.pressure_mpa, each) for each in found.curve]
     values = _unwrapped(question, [_value(each, question, found.body) for _, each in read])
     points = np.array([*rest, *zip((size for size, _ in read), values, strict=True)])
     pressure, value = points.T
     by_volume = found.body.load.by_volume
     if by_volume:
+        _require_sign(found.body, question, pressure)
         pressure, value = of_slow_rise(pressure, value)
-        ending = f"the volume given ends at {pressure[-1]:.4g} MPa"
+        what = "volume given" if found.converged else "path of the volume"
+        ending = f"the {what} ends at {pressure[-1]:.4g} MPa"
+        ending += "" if found.converged else f" ({found.message.rstrip('.')})"
     kept = np.concatenate(([True], np.diff(pressure) > 1e-9))
     pressure, value = pressure[kept], value[kept]
     percent = _percent(found, question)
@@ -158,6 +161,16 @@ def _curve(found: BodyEvaluation, question: Question, ending: str) -> StoredCurv
         share = (found.error_estimate.pressure_percent or 0.0) / 100
         error = error + share * pressure * np.abs(np.gradient(value, pressure))
     return StoredCurve(pressure, value, error, ending, tuple(_notes(found, percent)))
+
+
+def _require_sign(body: OwnBody, question: Question, pressure: Reals) -> None:
+    """Refuse a growing volume for a measured vacuum, or the reverse, by the model's pressures."""
+    if pressure.max() <= 0:
+        side = "above" if question.sign > 0 else "below"
+        raise DesignError(
+            f"{body.name} has load.largest_volume = {body.load.largest_volume:g}, at which no "
+            f"pressure is {side} 0 MPa, but the measured ones are."
+        )
 
 
 def _notes(found: BodyEvaluation, percent: float | None) -> Iterator[str]:

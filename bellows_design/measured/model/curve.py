@@ -14,7 +14,7 @@ from typing import Protocol
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
-from bellows_design.errors import DesignError
+from bellows_design.errors import UnreachedError
 from solver.arrays import Reals
 
 FEWEST_POINTS = 5
@@ -35,7 +35,7 @@ class StoredCurve:
         notes: Sentences on what it was computed by.
 
     Raises:
-        DesignError: It has less than two points, or its pressures do not ascend.
+        UnreachedError: It has less than two points, or its pressures do not ascend.
     """
 
     pressure: Reals
@@ -45,9 +45,9 @@ class StoredCurve:
     notes: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
-        ascending = self.pressure.size > 1 and bool((np.diff(self.pressure) > 0).all())
-        if not ascending or self.pressure.shape != self.value.shape != self.error.shape:
-            raise DesignError(
+        alike = self.pressure.shape == self.value.shape == self.error.shape
+        if not (alike and self.pressure.size > 1 and (np.diff(self.pressure) > 0).all()):
+            raise UnreachedError(
                 "the model has no curve to compare with: it was solved at no pressure."
                 + f" {self.ending}".rstrip()
             )

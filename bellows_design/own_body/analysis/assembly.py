@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING
 
 import cadquery as cq
 
+from bellows_design.errors import DesignError
 from bellows_design.own_body.body import OwnBody
+from bellows_design.own_body.selection import BETWEEN
 
 if TYPE_CHECKING:
     from solver import Mesh
@@ -33,7 +35,20 @@ class Assembly:
             Part(part.name, part.brep, names, _size(part.size, options))
             for part, names in zip(self.body.parts, self.body.face_names, strict=True)
         ]
-        return mesh_solids(parts, options, seconds)
+        mesh = mesh_solids(parts, options, seconds)
+        _require_outer_faces(self.body, mesh)
+        return mesh
+
+
+def _require_outer_faces(body: OwnBody, mesh: Mesh) -> None:
+    """Raise ``DesignError`` for a name whose faces lie between parts altogether."""
+    for name in body.surfaces:
+        if not len(mesh.surfaces.get(name, ())):
+            between = [each for each in mesh.surfaces if BETWEEN in each]
+            raise DesignError(
+                f"surfaces.{name} lies between parts: what two parts share is called "
+                f"{' or '.join(between)}."
+            )
 
 
 def _size(wanted: float | None, options: MeshOptions) -> float | None:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from bellows_design.analysis.evaluation import MeshSize, SolverEffort
 from bellows_design.own_body.analysis.error_estimate import BodyErrorEstimate
 from bellows_design.own_body.analysis.readings import BodyReading, PathReading
+from bellows_design.own_body.symmetry import against_symmetry
 
 if TYPE_CHECKING:
     from bellows_design.analysis.computation import Computation, Seconds
@@ -141,7 +142,20 @@ class BodyEvaluation:
         materials = {part.material.name: part.material for part in self.body.parts}
         known = (text for each in materials.values() for text in each.warnings)
         parts = (text for part in self.parts for text in part.warnings)
-        return (*known, *parts, *self.contact.warnings, *self.folded.warnings)
+        across = against_symmetry(self.body.gravity, self.body.supports.symmetry)
+        found = (*self.contact.warnings, *self.folded.warnings, *self._beyond)
+        return (*known, *across, *parts, *found)
+
+    @property
+    def _beyond(self) -> tuple[str, ...]:
+        """How a body is followed that does not bear its pressure; empty where it does."""
+        limit = self.limit_pressure_mpa
+        if self.converged or limit is None or self.body.load.by_volume:
+            return ()
+        return (
+            f"no equilibrium is near beyond {limit:.4g} MPa: load.largest_volume in place of "
+            "load.pressure follows the body there.",
+        )
 
     @property
     def mesh(self) -> MeshSize:

@@ -9,6 +9,7 @@ import numpy as np
 from bellows_design.analysis.models import AnalysisModel, Solving
 from bellows_design.design.lengths import SMALLEST_FEATURE
 from bellows_design.own_body.analysis.assembly import Assembly
+from bellows_design.own_body.analysis.readings import require_point
 from bellows_design.own_body.body import OwnBody
 from bellows_design.own_body.conditions import AXES
 
@@ -38,9 +39,13 @@ def wall(body: OwnBody) -> float:
 
 
 def problem(body: OwnBody, mesh: Mesh) -> Problem:
-    """The body on a mesh, with its supports, loads and obstacles."""
+    """The body on a mesh, with its supports, loads and obstacles.
+
+    Raises ``DesignError`` where ``tip.point`` lies outside of the body.
+    """
     from solver import Membrane, Problem, Supports
 
+    require_point(body, mesh)
     first, *_ = body.parts
     return Problem(
         mesh=mesh,

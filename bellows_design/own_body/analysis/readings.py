@@ -65,7 +65,7 @@ class BodyReading:
 
 def path_reading(body: OwnBody, mesh: Mesh, point: PathPoint) -> PathReading:
     """The whole body at a point of a path on a mesh."""
-    symmetric = {0, 2} & set(_crossed(body, mesh))  # then the whole tip does not turn
+    symmetric = {0, 2} & set(_crossed(body, mesh, TIP).values())  # then the whole tip does not turn
     angle = None if math.isnan(point.rotation) else 0.0 if symmetric else point.rotation
     return PathReading(
         point.pressure + 0.0,  # never -0
@@ -76,16 +76,16 @@ def path_reading(body: OwnBody, mesh: Mesh, point: PathPoint) -> PathReading:
     )
 
 
-def _crossed(body: OwnBody, mesh: Mesh) -> list[int]:
-    """Axes of the planes of symmetry that the surface ``tip`` lies on both sides of."""
-    if TIP not in mesh.surfaces:
-        return []
-    tip = mesh.surface_nodes(TIP)
-    return [
-        AXES[axis]
+def _crossed(body: OwnBody, mesh: Mesh, surface: str) -> dict[str, int]:
+    """The planes of symmetry that a surface lies on both sides of, and their axes."""
+    if surface not in mesh.surfaces:
+        return {}
+    nodes = mesh.surface_nodes(surface)
+    return {
+        plane: AXES[axis]
         for plane, axis in body.supports.symmetry.items()
-        if np.isin(tip, mesh.surface_nodes(plane)).any()
-    ]
+        if np.isin(nodes, mesh.surface_nodes(plane)).any()
+    }
 
 
 def reading(body: OwnBody, solution: Solution) -> BodyReading:
@@ -110,24 +110,29 @@ def _tip_displacement(body: OwnBody, solution: Solution) -> tuple[float, float, 
         moved = displacement_at(mesh, solution.displacement, body.tip.point)
     elif TIP in mesh.surfaces:
         moved = surface_mean(mesh, TIP, solution.displacement)
-        moved[_crossed(body, mesh)] = 0.0  # the tip's other half moves the opposite way
+        for axis in _crossed(body, mesh, TIP).values():
+            moved[axis] = 0.0  # the tip's other half moves the opposite way
     else:
         return None
     x, y, z = (float(each) for each in moved)
     return x, y, z
 
 
-def displacement_at(mesh: Mesh, displacement: Reals, place: tuple[float, float, float]) -> Reals:
-    """Displacement (3,) at a place in the undeformed body, mm.
+def require_point(body: OwnBody, mesh: Mesh) -> None:
+    """Raise ``DesignError`` where ``tip.point`` lies outside of the body."""
+    from solver.adaptivity.transfer import locate
 
-    Raises ``DesignError`` for one outside of the body.
-    """
+    place = body.tip.point
+    if place is not None and locate(mesh, np.array([place]))[1].min() < OUTSIDE:
+        raise DesignError(f"tip.point = {place} mm lies outside of the body.")
+
+
+def displacement_at(mesh: Mesh, displacement: Reals, place: tuple[float, float, float]) -> Reals:
+    """Displacement (3,) at a place in the undeformed body, mm; of one outside, extrapolated."""
     from solver.adaptivity.transfer import locate
     from solver.mesh.elements import TETRAHEDRON_EDGES, quadratic_shapes
 
     element, barycentric = locate(mesh, np.array([place]))
-    if barycentric.min() < OUTSIDE:
-        raise DesignError(f"tip.point = {place} mm lies outside of the body.")
     shapes = quadratic_shapes(barycentric, TETRAHEDRON_EDGES)
     moved: Reals = (shapes @ displacement[mesh.tets[element[0]]])[0]
     return moved
@@ -153,7 +158,7 @@ def _chord_angle(
     base, tip = _base(body, mesh), body.tip.point
     if base is None:
         return None
-    place = surface_mean(mesh, TIP, mesh.nodes) if tip is None else np.array(tip)
+    place = _middle(body, mesh, TIP) if tip is None else np.array(tip)
     before = place - base
     after = before + np.array(moved)
     if np.hypot(before[0], before[2]) < 1e-9 * mesh.size:
@@ -167,7 +172,15 @@ def _base(body: OwnBody, mesh: Mesh) -> Reals | None:
     if body.tip.base is not None:
         return np.array(body.tip.base)
     clamped = body.supports.clamped
-    return surface_mean(mesh, clamped[0], mesh.nodes) if clamped else None
+    return _middle(body, mesh, clamped[0]) if clamped else None
+
+
+def _middle(body: OwnBody, mesh: Mesh, surface: str) -> Reals:
+    """Mean place of a surface of the whole body: on planes of symmetry that it crosses, mm."""
+    mean = surface_mean(mesh, surface, mesh.nodes)
+    for plane, axis in _crossed(body, mesh, surface).items():
+        mean[axis] = mesh.nodes[mesh.surface_nodes(plane), axis].mean()
+    return mean
 
 
 def _contact_force(body: OwnBody, solution: Solution) -> float | None:

@@ -97,8 +97,7 @@ def _table(found: Comparison) -> Table:
         columns.append(found.fitted_values)
     columns.append(measured.value - found.fitted_values)
     for k in shown:
-        known = np.isfinite(found.values[k])
-        inside = ("yes" if found.inside[k] else "no") if known else "–"
+        inside = ("yes" if found.inside[k] else "no") if found.judged[k] else "–"
         cells = [_shown(float(column[k])) for column in columns]
         table.add_row(f"{measured.pressure[k]:.4g}", *cells, inside)
     return table

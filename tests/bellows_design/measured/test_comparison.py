@@ -147,3 +147,23 @@ def test_a_vacuum_is_compared_by_its_size() -> None:
     sucked = measured(data.value, -data.pressure, ANGLE)
     found = held(sucked)
     assert found.factor is not None and found.factor.low <= 1.2 <= found.factor.high
+
+
+def test_the_model_is_asked_as_far_as_the_softest_material_of_its_band_needs() -> None:
+    found = held(part(1.0), CompareOptions(material_percent=40))
+    assert found.inside.all() and found.reached == 20
+    ended = held(part(1.0), CompareOptions(material_percent=40), reach=0.12, ending="It ends.")
+    assert ended.reached == 14  # 0.6 of 0.12 MPa, at which the band's soft end is not known
+    assert ended.inside.sum() == 14
+
+
+def test_a_zero_among_the_points_asks_the_model_no_further() -> None:
+    far: list[float] = []
+
+    def asked(highest: float) -> ModelCurve:
+        far.append(highest)
+        return model(highest, error=0.01)
+
+    found = compare("finger", NINJAFLEX, part(1.0), asked, CompareOptions(zero_at=0.01))
+    assert found.factor is not None and found.factor.points == 19
+    assert len(far) == 1

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 import cadquery as cq
@@ -100,3 +101,26 @@ def test_a_body_is_frozen_and_has_a_hash() -> None:
     with pytest.raises(ValueError, match="frozen"):
         body.name = "other"  # type: ignore[misc]
     assert RUBBER["name"] == body.parts[0].material.name
+
+
+@pytest.mark.parametrize(
+    ("changed", "sentence"),
+    [
+        ({"supports": {"symmetry": {"tip": "y"}}}, "“tip” must lie in one plane normal to y"),
+        (
+            {"surfaces": {**NAMED, "middle": "|Y and (not <Y[1])"}},
+            "“middle” must lie in one plane normal to y",
+        ),
+        ({"surfaces": {**NAMED, "cavity": 5}}, "a surface is 5 but must be a selector, a table"),
+        (
+            {"surfaces": {**NAMED, "cavity": {"inter": True}}},
+            "did you mean surfaces.cavity.0.inner",
+        ),
+        ({"surfaces": {**NAMED, "cavity": ">Q"}}, "“>Q” is no selector of CadQuery's, such as >X"),
+    ],
+)
+def test_what_no_half_body_and_no_surface_can_be_is_said(
+    changed: dict[str, Any], sentence: str
+) -> None:
+    with pytest.raises(DesignError, match=re.escape(sentence)):
+        bar(**changed)

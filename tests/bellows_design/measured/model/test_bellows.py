@@ -16,7 +16,7 @@ from bellows_design.design.design import Design
 from bellows_design.design.scenes.free import Free
 from bellows_design.design.scenes.payload import Payload
 from bellows_design.design.shipped import load_design
-from bellows_design.errors import DesignError
+from bellows_design.errors import UnreachedError
 from bellows_design.force.scene.solved import Solved
 from bellows_design.measured.model.bellows import BellowsModel
 from bellows_design.measured.model.curve import BetweenFactors
@@ -122,5 +122,5 @@ def test_a_weight_is_computed_at_several_stiffnesses() -> None:
 def test_a_model_that_reaches_no_pressure_is_refused() -> None:
     with pytest.MonkeyPatch.context() as patch:
         patch.setitem(globals(), "END", 1e-5)
-        with pytest.raises(DesignError, match="reaches no pressure"):
+        with pytest.raises(UnreachedError, match="reaches no pressure"):
             MODEL.curve(Question(ANGLE), 0.1)

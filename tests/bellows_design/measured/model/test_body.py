@@ -146,6 +146,11 @@ def test_a_body_by_volume_is_followed_as_a_rising_pressure_would() -> None:
     assert after == pytest.approx(4000 * 0.0205, rel=0.05)
 
 
+def test_a_growing_volume_is_not_held_against_a_vacuum() -> None:
+    with pytest.raises(DesignError, match=r"no pressure is below 0 MPa, but the measured ones are"):
+        model(load={"largest_volume": 3.0}).curve(Question(ANGLE, sign=-1.0), 0.1)
+
+
 def test_what_a_body_has_nothing_for_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
     def without(pressure: float, stiffness: float) -> BodyReading:
         return BodyReading(pressure, None, None, None, None, 0.1, None)

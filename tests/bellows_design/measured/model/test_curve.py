@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from meshes import bellows_mesh
 
-from bellows_design.errors import DesignError
+from bellows_design.errors import UnreachedError
 from bellows_design.measured.model.course import of_slow_rise
 from bellows_design.measured.model.curve import (
     BetweenFactors,
@@ -92,7 +92,7 @@ def test_the_error_between_points_is_foreseen() -> None:
 
 
 def test_a_curve_of_one_point_is_refused() -> None:
-    with pytest.raises(DesignError, match="no curve to compare with"):
+    with pytest.raises(UnreachedError, match="no curve to compare with"):
         StoredCurve(np.array([0.0]), np.array([0.0]), np.array([0.0]), "It ends at once.")
 
 

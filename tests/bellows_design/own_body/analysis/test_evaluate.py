@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 
 import cadquery as cq
@@ -171,6 +172,41 @@ def test_the_estimated_error_is_that_between_two_meshes() -> None:
 def test_the_air_of_both_halves_is_read() -> None:
     undeformed = bent().path[0].cavity_volume_mm3
     assert undeformed == pytest.approx(14 * 4 * 3, rel=0.02)
+
+
+def test_the_chord_of_a_whole_body_lies_in_its_plane_of_symmetry() -> None:
+    """Upper half of a wedge: the faces at its ends have their centres at different heights."""
+    outline = cq.Workplane("XZ").polyline([(0, 0), (10, 0), (10, 1), (0, 3)]).close()
+    wedge = OwnBody.of(
+        {
+            "name": "wedge", "parts": [part(outline.extrude(4))], "pressurised": "tip",
+            "surfaces": {"root": "<X", "tip": ">X", "middle": "<Z"},
+            "supports": {"symmetry": {"middle": "z"}}, "load": {"pressure": -0.003},
+            "mesh": {"size": 4.0},
+        }
+    )  # fmt: skip
+    found = evaluated(wedge, meshes=1).end
+    assert found.chord_angle_deg == pytest.approx(0, abs=1e-9) and found.bending_angle_deg == 0
+    assert found.tip_displacement_mm is not None and found.tip_displacement_mm[0] > 0.1
+
+
+def test_a_path_that_ends_at_a_limit_names_the_load_that_goes_on() -> None:
+    limited = replace(bent(), converged=False, limit_pressure_mpa=0.0035)
+    assert any("load.largest_volume" in text for text in limited.warnings)
+
+
+def test_weight_across_a_plane_of_symmetry_is_warned_of() -> None:
+    tilted = replace(bent(), body=bar(gravity={"direction": [0, -1, -1]}))
+    assert any("across the plane of symmetry “middle”" in text for text in tilted.warnings)
+
+
+def test_a_name_whose_faces_lie_between_parts_is_refused() -> None:
+    surfaces = {"root": "<X", "skin": ">X", "middle": {"box": [[1, 1, 2], [9, 3, 2]]}}
+    parts = [part(box(10, 4, 2), "low"), part(box(10, 4, 2, at=(0, 0, 2)), "high")]
+    loads = {"pressurised": "skin", "load": {"pressure": 0.001}, "mesh": {"size": 4.0}}
+    body = OwnBody.of({"name": "two", "parts": parts, "surfaces": surfaces, **loads})
+    with pytest.raises(DesignError, match=r"surfaces.middle lies between parts: .* low\|high"):
+        evaluated(body, meshes=1)
 
 
 def test_a_point_outside_of_the_body_is_refused() -> None:
