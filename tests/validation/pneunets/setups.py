@@ -9,52 +9,64 @@ from pneunets.body import Actuator
 from pneunets.paths import Film, Setup, ogden, yeoh
 
 BODIES = {
-    "c5-w7": (Actuator(5, 7.0), 46.0, 55.0),
-    "c7-w7": (Actuator(7, 7.0), 46.0, 55.0),
-    "c5-w10": (Actuator(5, 10.0), 66.0, 65.0),
+    "c5-w7": (Actuator(5, 7.0), 46.0, 45.5),
+    "c7-w7": (Actuator(7, 7.0), 41.0, 45.5),
+    "c5-w10": (Actuator(5, 10.0), 51.0, 51.0),
 }
-"""Name -> dimensions, and the pressures up to which angle and force were measured, kPa."""
+"""Name -> dimensions, and the pressures up to which angle and force are computed, kPa."""
 
 MATERIALS = {"Ogden": ogden(), "Yeoh": yeoh()}
 
 COARSE, FINE = (3.0, 6.0), (2.0, 4.0)
 """Edges at the chambers and elsewhere, mm."""
 
-THIN, STIFF = 0.2, 200.0
-"""Thickness of a film that is a solid, mm, and its Young's modulus, MPa: it stretches by half a
-percent, and bends by less than a hundredth of the body's stiffness."""
+THIN = 0.1
+"""Thickness of the film as a solid, mm."""
 
-MEMBRANE = Film(82.0)
-"""A fiftieth of the published stiffness: a stiffer one, pressed together, folds on the mesh."""
+FILM = Film(4100.0 * 0.5 / THIN, thickness=THIN)
+"""Stretches as the published membrane of 4100 MPa and 0.5 mm does."""
 
 
 def setup(body: str, material: str, mesh: tuple[float, float] = COARSE) -> Setup:
-    """The free actuator; a thin solid closes the chambers."""
+    """The free actuator; the film, a thin solid, closes the chambers."""
     actuator, highest, _ = BODIES[body]
     closed = replace(actuator, layer=0.0, film=THIN)
     near, far = mesh
-    film = Film(STIFF, thickness=THIN)
-    return Setup(closed, MATERIALS[material], film, near, far, highest=highest)
+    return Setup(closed, MATERIALS[material], FILM, near, far, highest=highest)
 
 
-def with_membrane(given: Setup, film: Film = MEMBRANE, layer: float = 0.5) -> Setup:
-    """A layer of silicone closes the chambers, a membrane lies under it."""
-    return replace(given, body=replace(given.body, layer=layer, film=0.0), film=film)
+BASE = replace(setup("c5-w7", "Ogden"), highest=40.5)
+"""Up to where changes are compared."""
 
 
-BASE = replace(setup("c5-w7", "Ogden"), highest=26.0)
-"""Up to where slopes are compared."""
+def with_film(stiffness: float) -> Setup:
+    """The film's stiffness changed by a factor."""
+    changed = replace(FILM, young_modulus=stiffness * FILM.young_modulus)
+    return replace(BASE, film=changed)
 
 
 VARIANTS: Mapping[str, Setup] = {
-    "weight, hanging": replace(BASE, weight=(1.0, 0.0, 0.0)),
-    "membrane under 0.5 mm": replace(with_membrane(BASE), highest=38.6),
-    "membrane under 0.5 mm, half as stiff": replace(with_membrane(BASE, Film(41.0)), highest=36.8),
-    "membrane under 0.5 mm, finer mesh": replace(
-        with_membrane(setup("c5-w7", "Ogden", FINE)), highest=36.5
-    ),
+    "film half as stiff": with_film(0.5),
+    "film twice as stiff": with_film(2.0),
+    "ν 0.45": replace(BASE, material=ogden(0.45)),
+    "ν 0.49": replace(BASE, material=ogden(0.49)),
+    "0.5 mm of silicone above the film": replace(BASE, body=replace(BASE.body, layer=0.5)),
+    "weight, tip down": replace(BASE, weight=(1.0, 0.0, 0.0)),
+    "weight, tip up": replace(BASE, weight=(-1.0, 0.0, 0.0)),
+    "weight, film below": replace(BASE, weight=(0.0, 0.0, -1.0)),
+    "weight, film above": replace(BASE, weight=(0.0, 0.0, 1.0)),
 }
 """One change each of c5-w7, Ogden."""
+
+FINER = {
+    f"c5-w7, {material}, finer mesh": replace(setup("c5-w7", material, FINE), highest=42.0)
+    for material in MATERIALS
+}
+
+SAMPLE = "c5-w7, Ogden, coarsest mesh"
+"""What tests repeat: the first four equilibria."""
+
+SAMPLED = replace(setup("c5-w7", "Ogden", (5.0, 10.0)), highest=1.0)
 
 CLAMP = 5.0
 """Length of the body in the clamp where the force was measured, mm."""
@@ -67,25 +79,26 @@ def force_setup(body: str, material: str, missing: int, gap: float = 0.0) -> Set
     return replace(free, body=longer, plate=True, gap=gap, highest=BODIES[body][2])
 
 
-FREE = (
-    ("c5-w7", "Ogden"),
-    ("c5-w7", "Yeoh"),
-    ("c7-w7", "Ogden"),
-    ("c5-w10", "Ogden"),
-    ("c5-w10", "Yeoh"),
-)
-"""Bodies and materials of which the angle is computed."""
+FORCED = (("c5-w7", "Ogden"), ("c5-w7", "Yeoh"), ("c7-w7", "Ogden"), ("c5-w10", "Ogden"))
+"""Bodies and materials of which the force is computed, for both readings of the clamp."""
 
-FORCED = (("c5-w7", "Ogden", 0), ("c5-w7", "Ogden", 1))
-"""Bodies, materials and missing chambers of which the force is computed."""
+PLATES: Mapping[str, Setup] = {
+    "plate 2° away": force_setup("c5-w7", "Ogden", 0, gap=2.0),
+}
+"""One change each of the force of c5-w7, Ogden, no chamber missing."""
 
 
 def all_setups() -> dict[str, Setup]:
     """Name of a computation -> setup."""
-    found = {f"{body}, {material}": setup(body, material) for body, material in FREE}
+    found = {
+        f"{body}, {material}": setup(body, material) for body in BODIES for material in MATERIALS
+    }
+    found |= FINER | {SAMPLE: SAMPLED}
     found |= {f"c5-w7, {name}": changed for name, changed in VARIANTS.items()}
     found |= {
         f"force {body}, {material}, {missing} missing": force_setup(body, material, missing)
-        for body, material, missing in FORCED
+        for body, material in FORCED
+        for missing in (0, 1)
     }
+    found |= {f"force c5-w7, {name}": changed for name, changed in PLATES.items()}
     return found
