@@ -61,6 +61,12 @@ def test_the_knee_of_a_computed_curve_is_where_it_is_steepest() -> None:
     assert computed_curve(readings, "angle_deg").knee == pytest.approx(expected, abs=0.2)
 
 
+def test_the_knee_of_a_path_with_a_limit_point_is_there() -> None:
+    angle = np.linspace(0.0, 40.0, 400)
+    curve = Curve(30 + angle - 0.04 * angle**2 + 0.0005 * angle**3, angle)
+    assert curve.knee == pytest.approx(curve.pressure[angle < 25].max(), abs=1e-9)
+
+
 def test_measured_knees_are_those_of_the_publication() -> None:
     knees = {body: measured_knee(table) for body, table in DATA["angle"].items()}
     assert knees == {"c5-w7": 36.0, "c7-w7": 35.0, "c5-w10": 44.0}

@@ -48,6 +48,12 @@ def with_film(stiffness: float) -> Setup:
 VARIANTS: Mapping[str, Setup] = {
     "film half as stiff": with_film(0.5),
     "film twice as stiff": with_film(2.0),
+    "film a fiftieth as stiff": with_film(0.02),
+    "film of 0.05 mm, stretching alike": replace(
+        BASE,
+        body=replace(BASE.body, film=THIN / 2),
+        film=Film(2 * FILM.young_modulus, thickness=THIN / 2),
+    ),
     "ν 0.45": replace(BASE, material=ogden(0.45)),
     "ν 0.49": replace(BASE, material=ogden(0.49)),
     "0.5 mm of silicone above the film": replace(BASE, body=replace(BASE.body, layer=0.5)),
@@ -82,10 +88,14 @@ def force_setup(body: str, material: str, missing: int, gap: float = 0.0) -> Set
 FORCED = (("c5-w7", "Ogden"), ("c5-w7", "Yeoh"), ("c7-w7", "Ogden"), ("c5-w10", "Ogden"))
 """Bodies and materials of which the force is computed, for both readings of the clamp."""
 
+AWAY = 5.0
+"""Angle by which the plate may lean away, degrees: where the free tip is at some 30 kPa."""
+
 PLATES: Mapping[str, Setup] = {
-    "plate 2° away": force_setup("c5-w7", "Ogden", 0, gap=2.0),
+    f"{missing} missing, plate {AWAY:g}° away": force_setup("c5-w7", "Ogden", missing, gap=AWAY)
+    for missing in (0, 1)
 }
-"""One change each of the force of c5-w7, Ogden, no chamber missing."""
+"""Force of c5-w7, Ogden, on a plate that stands away."""
 
 
 def all_setups() -> dict[str, Setup]:

@@ -2,24 +2,19 @@
 
 from __future__ import annotations
 
-import math
-
 from record import Results, Table
 
 from pneunets.comparison import (
-    BENDING,
     DATA,
     FORCES,
     SLOPES,
-    beam_stiffness,
     blocked,
     free,
     knee_of,
     softer,
-    tip_stiffness,
 )
 from pneunets.features import measured_curve, measured_knee
-from pneunets.setups import BODIES, PLATES, VARIANTS
+from pneunets.setups import PLATES, VARIANTS
 
 
 def variants(results: Results) -> Table:
@@ -68,33 +63,6 @@ def force_table(results: Results) -> Table:
     ]
     heading = ("c5-w7, Ogden", *(f"force at {at:g} kPa, N" for at in places))
     return Table("The plate, and the chamber at the clamp.", heading, tuple(lines))
-
-
-def stiffnesses(results: Results) -> Table:
-    """Measured and ours, of all bodies."""
-    lines = []
-    for body in BODIES:
-        tables = DATA["force"][body], DATA["angle"][body]
-        measured = tip_stiffness(
-            body,
-            measured_curve(tables[0], "blocked_force_n"),
-            measured_curve(tables[1], "bending_angle_deg"),
-        )
-        ours = [
-            tip_stiffness(body, blocked(results, name), free(results, f"{body}, Ogden"))
-            if (name := f"force {body}, Ogden, {missing} missing") in results
-            else math.nan
-            for missing in (0, 1)
-        ]
-        values = (measured, *ours, beam_stiffness(body))
-        lines.append((body, *(f"{value:.4f}".replace("nan", "–") for value in values)))
-    heading = (
-        "N/mm", "measured", "ours, Ogden", "ours, 1 missing", "3 E I / L³, solid section",
-    )  # fmt: skip
-    return Table(
-        f"Blocked force over free deflection of the tip, rises from {BENDING[0]:g} to "
-        f"{BENDING[1]:g} kPa.", heading, tuple(lines),
-    )  # fmt: skip
 
 
 def effort(results: Results) -> Table:
