@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from record import Interval, Results, Stored
 
-from pneunets.features import Curve, computed_curve
+from pneunets.features import Curve, computed_curve, measured_knee
 from pneunets.paths import OGDEN_MU
 from pneunets.setups import BODIES, FILM
 
@@ -69,6 +69,11 @@ def softer(stored: Stored, factor: float) -> Curve:
     """
     pressures = [factor * each for each in stored.readings["pressure_kpa"]]
     return computed_curve({**stored.readings, "pressure_kpa": pressures}, ANGLE)
+
+
+def fitted_factor(results: Results, body: str) -> float:
+    """On the stiffness of Ogden's law, such that the knee is where it was measured."""
+    return measured_knee(DATA["angle"][body]) / free(results, f"{body}, Ogden").knee
 
 
 def knee_of(curve: Curve) -> float:

@@ -40,13 +40,18 @@ class Curve:
 
     @property
     def knee(self) -> float:
-        """Pressure of its first maximum, kPa, or where it is steepest if it only rises."""
+        """Pressure of its first maximum, kPa, or where it is steepest if it only rises.
+
+        NaN where it does not get as far.
+        """
         rises = np.diff(self.pressure)
         inner = self.value[:-1] > KNEE_FROM
         falls = np.flatnonzero(inner & (rises < 0))
         if len(falls):
             return float(self.pressure[falls[0]])
         places = np.flatnonzero(inner)
+        if not len(places):
+            return float("nan")
         place = places[(rises[inner] / np.diff(self.value)[inner]).argmin()]
         return float(self.pressure[place])
 

@@ -39,6 +39,10 @@ BASE = replace(setup("c5-w7", "Ogden"), highest=40.5)
 """Up to where changes are compared."""
 
 
+SHORT = replace(BASE, highest=30.0)
+"""Up to before the knee."""
+
+
 def with_film(stiffness: float) -> Setup:
     """The film's stiffness changed by a factor."""
     changed = replace(FILM, young_modulus=stiffness * FILM.young_modulus)
@@ -46,28 +50,20 @@ def with_film(stiffness: float) -> Setup:
 
 
 VARIANTS: Mapping[str, Setup] = {
-    "film half as stiff": with_film(0.5),
-    "film twice as stiff": with_film(2.0),
     "film a fiftieth as stiff": with_film(0.02),
     "film of 0.05 mm, stretching alike": replace(
         BASE,
         body=replace(BASE.body, film=THIN / 2),
         film=Film(2 * FILM.young_modulus, thickness=THIN / 2),
     ),
-    "ν 0.45": replace(BASE, material=ogden(0.45)),
-    "ν 0.49": replace(BASE, material=ogden(0.49)),
-    "0.5 mm of silicone above the film": replace(BASE, body=replace(BASE.body, layer=0.5)),
-    "weight, tip down": replace(BASE, weight=(1.0, 0.0, 0.0)),
-    "weight, tip up": replace(BASE, weight=(-1.0, 0.0, 0.0)),
-    "weight, film below": replace(BASE, weight=(0.0, 0.0, -1.0)),
-    "weight, film above": replace(BASE, weight=(0.0, 0.0, 1.0)),
+    "weight, film below": replace(SHORT, weight=(0.0, 0.0, -1.0)),
+    "weight, tip down": replace(SHORT, weight=(1.0, 0.0, 0.0)),
+    "ν 0.45": replace(SHORT, material=ogden(0.45)),
+    "ν 0.49": replace(SHORT, material=ogden(0.49)),
 }
 """One change each of c5-w7, Ogden."""
 
-FINER = {
-    f"c5-w7, {material}, finer mesh": replace(setup("c5-w7", material, FINE), highest=42.0)
-    for material in MATERIALS
-}
+FINER = {"c5-w7, Ogden, finer mesh": replace(setup("c5-w7", "Ogden", FINE), highest=42.0)}
 
 SAMPLE = "c5-w7, Ogden, coarsest mesh"
 """What tests repeat: the first four equilibria."""
@@ -85,7 +81,16 @@ def force_setup(body: str, material: str, missing: int, gap: float = 0.0) -> Set
     return replace(free, body=longer, plate=True, gap=gap, highest=BODIES[body][2])
 
 
-FORCED = (("c5-w7", "Ogden"), ("c5-w7", "Yeoh"), ("c7-w7", "Ogden"), ("c5-w10", "Ogden"))
+FREE = (
+    ("c5-w7", "Ogden"),
+    ("c5-w7", "Yeoh"),
+    ("c7-w7", "Ogden"),
+    ("c7-w7", "Yeoh"),
+    ("c5-w10", "Ogden"),
+)
+"""Bodies and materials of which the angle is computed."""
+
+FORCED = (("c5-w7", "Ogden"),)
 """Bodies and materials of which the force is computed, for both readings of the clamp."""
 
 AWAY = 5.0
@@ -100,9 +105,7 @@ PLATES: Mapping[str, Setup] = {
 
 def all_setups() -> dict[str, Setup]:
     """Name of a computation -> setup."""
-    found = {
-        f"{body}, {material}": setup(body, material) for body in BODIES for material in MATERIALS
-    }
+    found = {f"{body}, {material}": setup(body, material) for body, material in FREE}
     found |= FINER | {SAMPLE: SAMPLED}
     found |= {f"c5-w7, {name}": changed for name, changed in VARIANTS.items()}
     found |= {

@@ -7,14 +7,16 @@ from record import Results, Table
 from pneunets.comparison import (
     DATA,
     FORCES,
+    LEVELS,
     SLOPES,
     blocked,
+    fitted_factor,
     free,
     knee_of,
     softer,
 )
 from pneunets.features import measured_curve, measured_knee
-from pneunets.setups import PLATES, VARIANTS
+from pneunets.setups import BODIES, PLATES, VARIANTS
 
 
 def variants(results: Results) -> Table:
@@ -22,6 +24,7 @@ def variants(results: Results) -> Table:
     low, high = SLOPES["c5-w7"]
     names = {"as posed, Ogden": "c5-w7, Ogden", "as posed, Yeoh": "c5-w7, Yeoh"}
     names |= {name: f"c5-w7, {name}" for name in VARIANTS}
+    names |= {"finer mesh, Ogden": "c5-w7, Ogden, finer mesh"}
     curves = {label: free(results, name) for label, name in names.items()}
     curves["Ogden 15 % softer, by scaling"] = softer(results["c5-w7, Ogden"], 0.85)
     lines = []
@@ -48,6 +51,26 @@ def variants(results: Results) -> Table:
         "angle at 40 kPa, °",
     )
     return Table("One change at a time.", heading, tuple(lines))
+
+
+def fitted_stiffness(results: Results) -> Table:
+    """What Ogden's law scaled to the measured knee has, of all bodies."""
+    lines = []
+    for body in BODIES:
+        factor = fitted_factor(results, body)
+        ours = softer(results[f"{body}, Ogden"], factor)
+        known = measured_curve(DATA["angle"][body], "bending_angle_deg")
+        (low, high), level = SLOPES[body], LEVELS[body][0]
+        lines.append(
+            (
+                body,
+                f"{factor:.2f}",
+                f"{known.slope(low, high):.3f} / {ours.slope(low, high):.3f}",
+                f"{level:g} kPa: {known.at(level):.1f} / {ours.at(level):.1f}".replace("nan", "–"),
+            )
+        )
+    heading = ("Ogden", "factor", "slope, °/kPa, measured / ours", "angle, °, measured / ours")
+    return Table("One factor on the stiffness, fitted to the knee.", heading, tuple(lines))
 
 
 def force_table(results: Results) -> Table:
