@@ -162,7 +162,7 @@ def measured_text() -> str:
         f"{first[1] - first[0]:.1f}°: slopes before the knee repeat less well than that. Both runs "
         "are steepest within 0.5 kPa. The record of c5-w7 jumps by 0.9° right after its zero. The "
         "force of c5-w7 is 0.02 N at 10 kPa and 0.06 N at 30 kPa; those of the others are below "
-        "0.001 N until 25 kPa, as if their tips had not touched before."
+        "0.001 N until 25 kPa."
     )
 
 
@@ -209,7 +209,8 @@ def spread_of_variants(results: Results) -> list[float]:
 def off(ours: Sequence[float], known: float) -> str:
     """By how many per cent ours differs from the measured number."""
     low, high = (100 * (value / known - 1) for value in interval(ours))
-    return f"{low:+.0f} to {high:+.0f} %" if high - low > 0.5 else f"{low:+.0f} %"
+    found = f"{low:+.0f} to {high:+.0f} %" if high - low > 0.5 else f"{low:+.0f} %"
+    return found.replace("-", "−")
 
 
 def verdict(results: Results) -> str:
@@ -254,11 +255,12 @@ def verdict_on_forces(results: Results) -> str:
     return (
         "The blocked force does not agree: on a plate that touches from the start it is "
         f"{early[0]:.1f} times the measured one at 30 kPa and {late[0]:.1f} times at 40 kPa with "
-        f"one chamber missing, {early[1]:.1f} and {late[1]:.1f} times with none. Ours is what a "
-        f"beam bears: {ours:.3f} N/mm over the free deflection from 10 to 30 kPa, where 3 E I / L³ "
-        f"of the solid section is {beam_stiffness('c5-w7'):.3f}, and up to a third more as the "
-        f"film holds it across. On a plate {AWAY:g}° away, which is a hypothesis, it is "
-        f"{far[0]:.1f} and {far[1]:.1f} times the measured one at 40 kPa."
+        f"one chamber missing, {early[1]:.1f} and {late[1]:.1f} times with none. Ours is near "
+        f"what a beam bears: {ours:.3f} N/mm over the free deflection from 10 to 30 kPa, where 3 "
+        f"E I / L³ of the solid section is {beam_stiffness('c5-w7'):.3f}, and up to a third "
+        f"more as the film holds it across. On a plate {AWAY:g}° away, a hypothesis, it is "
+        f"{far[0]:.1f} and {far[1]:.1f} times the measured one at 40 kPa with one missing and with "
+        "none."
     )
 
 

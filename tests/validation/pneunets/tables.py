@@ -47,7 +47,7 @@ def variants(results: Results) -> Table:
         "c5-w7",
         f"slope, {low:g} to {high:g} kPa, °/kPa",
         "angle at 30 kPa, °",
-        "steepest at, kPa",
+        "knee at, kPa",
         "angle at 40 kPa, °",
     )
     return Table("One change at a time.", heading, tuple(lines))
