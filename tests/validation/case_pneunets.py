@@ -7,7 +7,7 @@ from functools import partial
 from pneunets.figure import draw
 from pneunets.paths import Setup, path
 from pneunets.report import report
-from pneunets.setups import all_setups
+from pneunets.setups import SAMPLE, all_setups
 from record import Case, Computed
 
 DIGITS = 6
@@ -26,5 +26,7 @@ CASE = Case(
     "A. Silicone bending actuators with a film",
     {name: partial(computed, setup) for name, setup in all_setups().items()},
     report,
+    sample=SAMPLE,
+    tolerance=0.03,
     draw=draw,
 )

@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from pneunets.body import Actuator, mesh, solid
+from pneunets.comparison import DATA
 from pneunets.features import Curve, computed_curve, measured_knee
-from pneunets.report import DATA
+from stored import results_of
 
 BODY = Actuator(chambers=5, wall=7.0)
 
@@ -60,6 +61,22 @@ def test_the_knee_of_a_computed_curve_is_where_it_is_steepest() -> None:
     assert computed_curve(readings, "angle_deg").knee == pytest.approx(expected, abs=0.2)
 
 
+def test_the_knee_of_a_path_with_a_limit_point_is_there() -> None:
+    angle = np.linspace(0.0, 40.0, 400)
+    curve = Curve(30 + angle - 0.04 * angle**2 + 0.0005 * angle**3, angle)
+    assert curve.knee == pytest.approx(curve.pressure[angle < 25].max(), abs=1e-9)
+
+
 def test_measured_knees_are_those_of_the_publication() -> None:
     knees = {body: measured_knee(table) for body, table in DATA["angle"].items()}
     assert knees == {"c5-w7": 36.0, "c7-w7": 35.0, "c5-w10": 44.0}
+
+
+FORCED = [name for name in results_of("pneunets") if name.startswith("force")]
+
+
+@pytest.mark.parametrize("name", FORCED)
+def test_the_plate_bears_what_the_clamp_holds(name: str) -> None:
+    readings = results_of("pneunets")[name].readings
+    # the tolerance of a solve leaves 0.4 mN where the plate begins to touch
+    assert readings["force_n"] == pytest.approx(readings["clamp_force_n"], rel=2e-3, abs=1e-3)

@@ -26,7 +26,7 @@ class Curve:
 
     def at(self, pressure: float) -> float:
         """Where the path is at a pressure for the last time; NaN if it is not."""
-        above = self.pressure >= pressure
+        above = self.pressure > pressure
         crossings = np.flatnonzero(above[1:] != above[:-1])
         if not len(crossings):
             return float("nan")
@@ -40,10 +40,19 @@ class Curve:
 
     @property
     def knee(self) -> float:
-        """Pressure at which it is steepest, kPa."""
-        rising = np.diff(self.pressure) / np.diff(self.value)
+        """Pressure of its first maximum, kPa, or where it is steepest if it only rises.
+
+        NaN where it does not get as far.
+        """
+        rises = np.diff(self.pressure)
         inner = self.value[:-1] > KNEE_FROM
-        place = int(np.flatnonzero(inner)[rising[inner].argmin()])
+        falls = np.flatnonzero(inner & (rises < 0))
+        if len(falls):
+            return float(self.pressure[falls[0]])
+        places = np.flatnonzero(inner)
+        if not len(places):
+            return float("nan")
+        place = places[(rises[inner] / np.diff(self.value)[inner]).argmin()]
         return float(self.pressure[place])
 
 

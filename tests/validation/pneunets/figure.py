@@ -8,12 +8,11 @@ from typing import Any
 import numpy as np
 from record import Results
 
+from pneunets.comparison import DATA, SECOND, blocked, free
 from pneunets.features import Curve
-from pneunets.report import DATA, SECOND, blocked, free
-from pneunets.setups import BODIES, MATERIALS
+from pneunets.setups import AWAY, BODIES, MATERIALS
 
 OURS, MEASURED, AGAIN = "#1f5f99", "black", "#b0563c"
-MEMBRANES = {"membrane under 0.5 mm": "--", "membrane under 0.5 mm, finer mesh": ":"}
 READINGS = {0: ("#1f5f99", "all chambers"), 1: ("#8a5fa8", "none at the clamp")}
 
 
@@ -41,13 +40,11 @@ def draw_angles(axes: Any, results: Results, body: str) -> None:
         axes.lines[-1].set_label("measured again, as at 20 kPa")
     names = [f"{body}, {material}" for material in MATERIALS]
     band(axes, [free(results, name) for name in names if name in results], OURS)
-    axes.lines[-1].set_label("between Yeoh and Ogden")
+    both = all(name in results for name in names)
+    axes.lines[-1].set_label("between Yeoh and Ogden" if both else "Ogden")
     if body == "c5-w7":
-        for name, style in MEMBRANES.items():
-            other = free(results, f"c5-w7, {name}")
-            axes.plot(
-                other.pressure, other.value, style, color=OURS, lw=1.0, label=f"Ogden, {name}"
-            )
+        finer = free(results, "c5-w7, Ogden, finer mesh")
+        axes.plot(finer.pressure, finer.value, "--", color=OURS, lw=1.0, label="Ogden, finer mesh")
     highest = 1.35 * max(table["bending_angle_deg"])
     finish(axes, body, "bending angle, degrees", table["pressure_kpa"], highest)
 
@@ -71,6 +68,11 @@ def draw_forces(axes: Any, results: Results, body: str) -> None:
         if curves:
             band(axes, curves, colour)
             axes.lines[-1].set_label(label)
+    if body == "c5-w7":
+        for missing, (colour, _) in READINGS.items():
+            away = blocked(results, f"force c5-w7, {missing} missing, plate {AWAY:g}° away")
+            axes.plot(away.pressure, away.value, "--", color=colour, lw=1.0)
+        axes.lines[-1].set_label(f"dashed: plate {AWAY:g}° away")
     highest = 1.35 * max(table["blocked_force_n"])
     finish(axes, "", "blocked force, N", table["pressure_kpa"], highest)
 

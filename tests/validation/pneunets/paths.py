@@ -23,6 +23,7 @@ from solver import (
     cavity_volume,
     contact_forces,
     inflate,
+    reaction,
 )
 from solver.nonlinear.events import Listener
 
@@ -77,7 +78,7 @@ class Setup:
 
     body: Actuator
     material: Ogden
-    film: Film = Film(82.0)
+    film: Film = Film()
     near: float = 2.0
     far: float = 4.0
     weight: tuple[float, float, float] = (0.0, 0.0, 0.0)
@@ -143,8 +144,8 @@ class Setup:
 PAD = 5.0
 """Length of the end of the body that the plate may touch, mm."""
 
-PENETRATION = 0.05
-"""Of the plate at a pressure of the shear modulus, mm."""
+PENETRATION = 5.0
+"""Of the plate at a pressure of the film's shear modulus, mm: 0.02 mm at 0.05 MPa."""
 
 
 def tip_node(body: Actuator, mesh: Mesh) -> int:
@@ -170,7 +171,9 @@ def readings(setup: Setup, solution: Solution) -> Readings:
         "stable_at_volume": float(bool(end.stable_at_volume)),
     }
     if setup.plate:
+        held = reaction(solution, "clamp").force
         found["force_n"] = 2 * float(np.linalg.norm(contact_forces(solution)[0].force))
+        found["clamp_force_n"] = 2 * float(np.hypot(held[0], held[2]))
     return found
 
 
