@@ -87,6 +87,8 @@ pressure = 0.01
 # poisson_ratio = 0.3
 # mm; above 0, at most 100
 # thickness = 0.1
+# whether it wrinkles where it is pressed together, instead of bearing compression
+# wrinkles = true
 
 # weight, which acts before any pressure
 # [gravity]
