@@ -11,7 +11,6 @@ import pytest
 from fakes import FakeEvaluation
 
 from bellows_design import budget
-from bellows_design.analysis import mesh_plan
 from bellows_design.analysis.evaluate import evaluate
 from bellows_design.analysis.mesh_plan import first_plan
 from bellows_design.analysis.models import FULL, HALF, UNIT_CELL, AnalysisModel
@@ -20,6 +19,7 @@ from bellows_design.design.design import Design
 from bellows_design.design.overrides import with_overrides
 from bellows_design.design.shipped import load_design, shipped_designs
 from bellows_design.errors import DesignError
+from bellows_design.geometry.named_solids import NamedSolid
 
 HONEST = 1.5
 """Estimated and actual numbers of elements differ by no larger a factor."""
@@ -72,7 +72,7 @@ def test_the_estimate_of_an_extreme_cell_is_honest(name: str) -> None:
 def test_a_mesh_too_large_for_the_memory_is_refused_before_it_is_made(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(mesh_plan, "mesh_solid", None)
+    monkeypatch.setattr(NamedSolid, "meshed", None)
     thin = with_overrides(load_design("prototype_1"), THIN_AND_WIDE)
     with pytest.raises(DesignError) as error:
         evaluate(thin, FULL.name, budget=Budget(memory=2.0))
