@@ -12,7 +12,7 @@ from pneunets.comparison import DATA, SECOND, blocked, free
 from pneunets.features import Curve
 from pneunets.setups import AWAY, BODIES, MATERIALS
 
-OURS, MEASURED, AGAIN = "#1f5f99", "black", "#b0563c"
+OURS, MEASURED, AGAIN, WRINKLING = "#1f5f99", "black", "#b0563c", "#3f8f4f"
 READINGS = {0: ("#1f5f99", "all chambers"), 1: ("#8a5fa8", "none at the clamp")}
 
 
@@ -45,6 +45,9 @@ def draw_angles(axes: Any, results: Results, body: str) -> None:
     if body == "c5-w7":
         finer = free(results, "c5-w7, Ogden, finer mesh")
         axes.plot(finer.pressure, finer.value, "--", color=OURS, lw=1.0, label="Ogden, finer mesh")
+    wrinkling = free(results, f"{body}, film that wrinkles")
+    axes.plot(wrinkling.pressure, wrinkling.value, "-", color=WRINKLING, lw=1.0)
+    axes.lines[-1].set_label("Ogden, film that wrinkles")
     highest = 1.35 * max(table["bending_angle_deg"])
     finish(axes, body, "bending angle, degrees", table["pressure_kpa"], highest)
 

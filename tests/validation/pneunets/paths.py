@@ -58,6 +58,7 @@ class Film:
     young_modulus: float = 4100.0
     poisson_ratio: float = 0.49
     thickness: float = 0.5
+    wrinkles: bool = False
 
 
 @dataclass(frozen=True)
@@ -109,10 +110,8 @@ class Setup:
             return {
                 "materials": {"film": Ogden.neo_hooke(mu, bulk_modulus(mu, film.poisson_ratio))}
             }
-        membrane = Membrane(
-            "bottom", film.young_modulus, film.poisson_ratio, film.thickness, wrinkles=False
-        )
-        return {"membranes": (membrane,)}
+        constants = (film.young_modulus, film.poisson_ratio, film.thickness)
+        return {"membranes": (Membrane("bottom", *constants, wrinkles=film.wrinkles),)}
 
     def _middles(self) -> list[float]:
         """x of the middles of chambers and of the walls between them, mm."""

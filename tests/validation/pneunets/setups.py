@@ -10,8 +10,8 @@ from pneunets.paths import Film, Setup, ogden, yeoh
 
 BODIES = {
     "c5-w7": (Actuator(5, 7.0), 46.0, 45.5),
-    "c7-w7": (Actuator(7, 7.0), 41.0, 45.5),
-    "c5-w10": (Actuator(5, 10.0), 51.0, 51.0),
+    "c7-w7": (Actuator(7, 7.0), 41.0, 40.5),
+    "c5-w10": (Actuator(5, 10.0), 51.0, 46.0),
 }
 """Name -> dimensions, and the pressures up to which angle and force are computed, kPa."""
 
@@ -49,7 +49,15 @@ def with_film(stiffness: float) -> Setup:
     return replace(BASE, film=changed)
 
 
+def wrinkling(body: str, highest: float) -> Setup:
+    """The published membrane under 0.5 mm of silicone; it bears no compression."""
+    return replace(
+        setup(body, "Ogden"), body=BODIES[body][0], film=Film(wrinkles=True), highest=highest
+    )
+
+
 VARIANTS: Mapping[str, Setup] = {
+    "film that wrinkles": wrinkling("c5-w7", 44.0),
     "film a fiftieth as stiff": with_film(0.02),
     "film of 0.05 mm, stretching alike": replace(
         BASE,
@@ -62,6 +70,12 @@ VARIANTS: Mapping[str, Setup] = {
     "ν 0.49": replace(SHORT, material=ogden(0.49)),
 }
 """One change each of c5-w7, Ogden."""
+
+WRINKLING: Mapping[str, Setup] = {
+    "c7-w7, film that wrinkles": wrinkling("c7-w7", 30.5),
+    "c5-w10, film that wrinkles": wrinkling("c5-w10", 30.5),
+}
+"""The same change of the other bodies, up to before the knee."""
 
 FINER = {"c5-w7, Ogden, finer mesh": replace(setup("c5-w7", "Ogden", FINE), highest=42.0)}
 
@@ -87,10 +101,11 @@ FREE = (
     ("c7-w7", "Ogden"),
     ("c7-w7", "Yeoh"),
     ("c5-w10", "Ogden"),
+    ("c5-w10", "Yeoh"),
 )
 """Bodies and materials of which the angle is computed."""
 
-FORCED = (("c5-w7", "Ogden"),)
+FORCED = (("c5-w7", "Ogden"), ("c7-w7", "Ogden"), ("c5-w10", "Ogden"))
 """Bodies and materials of which the force is computed, for both readings of the clamp."""
 
 AWAY = 5.0
@@ -107,7 +122,7 @@ def all_setups() -> dict[str, Setup]:
     """Name of a computation -> setup."""
     found = {f"{body}, {material}": setup(body, material) for body, material in FREE}
     found |= FINER | {SAMPLE: SAMPLED}
-    found |= {f"c5-w7, {name}": changed for name, changed in VARIANTS.items()}
+    found |= {f"c5-w7, {name}": changed for name, changed in VARIANTS.items()} | WRINKLING
     found |= {
         f"force {body}, {material}, {missing} missing": force_setup(body, material, missing)
         for body, material in FORCED

@@ -53,6 +53,24 @@ def variants(results: Results) -> Table:
     return Table("One change at a time.", heading, tuple(lines))
 
 
+def wrinkled(results: Results) -> Table:
+    """What a film that bears no compression changes, of all bodies with Ogden's law."""
+    lines = []
+    for body in BODIES:
+        (low, high), known = SLOPES[body], DATA["angle"][body]
+        curves = [measured_curve(known, "bending_angle_deg")]
+        curves += [free(results, f"{body}, {name}") for name in ("Ogden", "film that wrinkles")]
+        slopes = (f"{curve.slope(low, high):.3f}" for curve in curves)
+        angles = (f"{curve.at(30.0):.2f}" for curve in curves)
+        lines.append((body, " / ".join(slopes), " / ".join(angles)))
+    heading = (
+        "measured / as posed, Ogden / film that wrinkles, Ogden",
+        "slope before the knee, °/kPa",
+        "angle at 30 kPa, °",
+    )
+    return Table("A film that wrinkles instead of bearing compression.", heading, tuple(lines))
+
+
 def fitted_stiffness(results: Results) -> Table:
     """What Ogden's law scaled to the measured knee has, of all bodies."""
     lines = []
