@@ -138,11 +138,9 @@ def test_what_a_solve_leaves_in_a_film_that_is_not_strained_is_no_compression(bo
         return places @ np.array([[c, s, 0], [-s, c, 0], [0, 0, 1]]) - places
 
     supports = Supports(prescribed={"x0": turned})
-    problem = Problem(
-        box(), Ogden.neo_hooke(1.0), supports, membranes=(Membrane("z1", 2e3, 0.3, 0.1),)
-    )
-    solution = solve(problem)
+    film = Membrane("z1", 2e3, 0.3, 0.1, wrinkles=False)
+    solution = solve(Problem(box(), Ogden.neo_hooke(1.0), supports, membranes=(film,)))
     (forces,) = membrane_forces(solution)
-    assert forces.lowest < 0
+    assert abs(forces.lowest) < 1e-8 * film.stiffness
     assert not forces.compressed.any()
     assert solution.warnings == ()
