@@ -21,15 +21,14 @@ from bellows_design.deformed.joined.state import BodyState
 from bellows_design.deformed.joined.stubs import Stub, with_stub
 from bellows_design.design.bellows_parameters import BellowsParameters
 from bellows_design.design.design import Design
-from bellows_design.design.lengths import SMALLEST_FEATURE
-from bellows_design.geometry.face_names import BUBBLE_MIDDLE, GAP_MIDDLE, ROOT, TIP
+from bellows_design.geometry.face_names import BUBBLE_MIDDLE, GAP_MIDDLE, ROOT, SYMMETRY, TIP
 from solver.arrays import Integers, Reals
 from solver.mesh.mesh import Mesh
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
 
-SHORTEST_STUB = SMALLEST_FEATURE
+SHORTEST_STUB = 0.1
 """mm. Where the actuator ends before the gap's middle, a stub is this long."""
 
 LONGER = 1e-6
@@ -97,6 +96,7 @@ class End:
         moved = self._deformed(ends)
         turned, shares = self._added(moved, bend).applied(moved), self.shares[:, None]
         missed = self.spread @ self.match.missed(moved, cell.moved)
+        missed[self.piece.mesh.surface_nodes(SYMMETRY), 1] = 0.0  # they stay in their plane
         bent: Reals = moved + shares * (turned - moved) - (1 - shares) * missed
         return bent
 

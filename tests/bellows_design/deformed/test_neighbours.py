@@ -29,7 +29,7 @@ def neighbour(evaluated: Evaluated) -> NeighbourEvaluation:
 def test_it_has_its_own_shape_at_rest(neighbour: NeighbourEvaluation) -> None:
     body = Assembly.of(neighbour.anchor).actuator(neighbour)
     solid = full_body(neighbour.design.bellows, None).solid
-    assert volume_of_cells(body.mesh, body.mesh.nodes) == pytest.approx(solid.Volume(), rel=2e-3)
+    assert volume_of_cells(body.mesh, body.mesh.nodes) == pytest.approx(solid.Volume(), rel=5e-3)
     box, nodes = solid.BoundingBox(), body.mesh.nodes
     assert nodes.max(axis=0) == pytest.approx([box.xmax, box.ymax, box.zmax], abs=0.01)
 

@@ -82,3 +82,24 @@ def test_a_plane_through_nodes_makes_no_needles(ball: Mesh) -> None:
         corners = mesh.nodes[mesh.tets[:, :4]]
         volumes = np.linalg.det(corners[:, 1:] - corners[:, :1]) / 6
         assert volumes.min() > 1e-9 * ball.edge**3
+
+
+def test_a_plane_on_a_face_takes_no_section_from_it() -> None:
+    """A step whose riser lies in the plane: only what is behind the riser was cut."""
+    step = (
+        cq.Workplane()
+        .box(4, 2, 4, centered=False)
+        .union(cq.Workplane().box(8, 2, 2, centered=False))
+    )
+    mesh = named(step.val(), "outside").meshed(MeshOptions(size=1.0), 60.0)
+    first, second = (piece.mesh for piece in cut(mesh, 4.0, "end"))
+    for piece, outside in ((first, 2 * 16 + 3 * 8 + 4), (second, 4 * 8 + 4)):
+        assert piece.boundary_surfaces == {"outside", "end"}
+        assert area(piece, "end") == pytest.approx(4, rel=1e-4)
+        assert area(piece, "outside") == pytest.approx(outside, rel=1e-4)
+
+
+def area(mesh: Mesh, name: str) -> float:
+    """Of the flat triangles on the corners of a surface, mm²."""
+    a, b, c = (mesh.nodes[mesh.surfaces[name][:, corner]] for corner in range(3))
+    return float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2)
