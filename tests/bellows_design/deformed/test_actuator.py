@@ -16,6 +16,7 @@ from bellows_design.deformed.solved import SolvedBodies, reached
 from bellows_design.evaluation import Evaluation
 from bellows_design.geometry.actuator import full_body
 from solver import Mesh, cavity_volume, rotation
+from solver.mesh.faces import face_keys
 from solver.mesh.mid_nodes import jacobian_ratios
 
 Evaluated = Callable[[str], Evaluation]
@@ -95,15 +96,20 @@ def test_no_element_is_folded_at_rest(name: str, whole: Whole) -> None:
 
 
 @pytest.mark.parametrize("name", EVERY)
-def test_surfaces_bound_the_body_but_for_the_joints(name: str, whole: Whole) -> None:
-    """All are faces of one element with normals out of it; what else is outer lies in joints."""
-    mesh = whole(name).mesh
+def test_surfaces_bound_the_body_but_for_the_joints(
+    name: str, evaluated: Evaluated, whole: Whole
+) -> None:
+    """All are faces of one element with normals out of it; all others lie in the joints."""
+    mesh, middles = whole(name).mesh, evaluated(name).design.bellows.bubble_middles
     assert set(mesh.surfaces) == SURFACES == mesh.boundary_surfaces
-    named = sum(map(len, mesh.surfaces.values()))
-    if name == "two bubbles":
-        assert len(mesh.outer_faces) == named
-    else:
-        assert 0 < len(mesh.outer_faces) - named < 0.1 * named
+    named = np.concatenate([face_keys(each, len(mesh.nodes)) for each in mesh.surfaces.values()])
+    assert len(np.unique(named)) == len(named)
+    others = np.setdiff1d(mesh.outer_faces, named)
+    assert bool(len(others)) is (name != "two bubbles")
+    rest, last = np.divmod(others, len(mesh.nodes))
+    x = mesh.nodes[np.concatenate([last, *np.divmod(rest, len(mesh.nodes))]), 0]
+    away = np.minimum(np.abs(x - middles[0]), np.abs(x - middles[-1]))
+    assert away.max(initial=0.0) < 2e-3
 
 
 @pytest.mark.parametrize("name", EVERY)
@@ -148,7 +154,7 @@ def test_of_the_ends_the_stress_is_that_on_their_own_mesh(
     assert body.von_mises[body.counted].max() == pytest.approx(highest)
 
 
-JUMPS = {"three bubbles": 0.1, "nine bubbles": 0.1, "fingertip": 0.1, "vacuum": 0.25}
+JUMPS = {"three bubbles": 0.2, "nine bubbles": 0.1, "fingertip": 0.1, "vacuum": 0.25}
 """mm, by which sections of cell and ends miss each other before that is spread over the ends."""
 
 
