@@ -236,6 +236,27 @@ def test_open_surfaces_that_close_each_other_are_filled_together(
         assert state(page)["section"]["caps"] == 0
 
 
+def test_joints_that_are_divided_otherwise_are_closed_and_open_ends_are_not(
+    browser: Browser, tmp_path: Path
+) -> None:
+    """A pipe of square section: once its end is closed by triangles about a middle of their own."""
+    points, triangles = block(10, 10, 40)
+    sides = triangles[4:]
+    lids = np.array([[0, 0, 0], [0, 10, 0], [10, 10, 0], [10, 0, 0], [5, 0, 0], [5, 10, 0]], float)
+    lids = np.vstack([lids, np.add(lids, (0, 0, 40))])
+    fans = [[0, 1, 5], [0, 5, 4], [4, 5, 2], [4, 2, 3]]
+    both = np.vstack([fans, np.array(fans)[:, ::-1] + 6])
+    everything = np.vstack([points, lids])
+    pipe = Surface("pipe", sides, points)
+    closed = Surface("closed", np.vstack([sides, both + 8]), everything)
+    half = Surface("half", np.vstack([sides, np.array(fans) + 8]), everything)
+    for surface, expected in ((pipe, False), (half, False), (closed, True)):
+        with shown(browser, tmp_path, [surface]) as page:
+            found = state(page)
+            assert found["surfaces"][0]["closed"] is expected, surface.name
+            assert found["section"]["caps"] == int(expected)
+
+
 def test_the_section_s_slider_and_axis_move_the_plane(browser: Browser, tmp_path: Path) -> None:
     with shown(browser, tmp_path, [sheared()]) as page:
         offset = page.get_by_label("Place of the section, mm")
