@@ -6,6 +6,7 @@ import base64
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
+from itertools import combinations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -455,8 +456,15 @@ def test_it_fits_and_is_readable(browser: Browser, tmp_path: Path, width: int, t
     with shown(browser, tmp_path, surfaces, field="von Mises stress", **options) as page:
         assert wider_than_the_window(page) == 0
         assert hard_to_read(page) == []
-        for box in (element.bounding_box() for element in page.locator("button, select").all()):
-            assert box is not None and box["x"] >= 0 and box["x"] + box["width"] <= width
+        boxes = [
+            element.bounding_box() for element in page.locator(".bar :is(button, select)").all()
+        ]
+        places = [(box["x"], box["y"], box["width"], box["height"]) for box in boxes if box]
+        assert len(places) == len(boxes) == 7
+        assert all(x >= 0 and x + wide <= width for x, _, wide, _ in places)
+        for (x, y, wide, high), (x2, y2, wide2, high2) in combinations(places, 2):
+            beside = x + wide <= x2 or x2 + wide2 <= x
+            assert beside or y + high <= y2 or y2 + high2 <= y, "controls overlap"
 
 
 def test_dark_and_light_pages_have_dark_and_light_stages(browser: Browser, tmp_path: Path) -> None:

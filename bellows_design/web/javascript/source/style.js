@@ -61,7 +61,7 @@ canvas:active { cursor: grabbing; }
 .bar { display: flex; flex-wrap: wrap; gap: 8px 18px; align-items: center; padding: 8px 12px;
   border-top: 1px solid var(--own-line); background: var(--own-card); }
 .bar:empty { display: none; }
-.group { display: flex; align-items: center; gap: 8px; min-width: 0; margin: 0; padding: 0; border: 0; }
+.group { display: flex; align-items: center; gap: 8px; min-width: min-content; max-width: 100%; margin: 0; padding: 0; border: 0; }
 .group.frames { flex: 1 1 260px; }
 .place { display: contents; }
 .group.section:has(.place:not([hidden])) { flex: 1 1 260px; }
@@ -71,6 +71,7 @@ canvas:active { cursor: grabbing; }
 button, select { font: inherit; color: var(--own-ink); background: var(--own-card);
   border: 1px solid var(--own-line); border-radius: 6px; min-height: 30px; padding: 3px 10px;
   cursor: pointer; max-width: 100%; }
+select { min-width: 0; flex: 0 1 auto; text-overflow: ellipsis; }
 button:hover, select:hover { border-color: var(--own-accent); }
 button[aria-pressed="true"] { background: var(--own-accent); border-color: var(--own-accent);
   color: var(--own-card); }
