@@ -20,6 +20,13 @@ import { bindTabs } from "./actions/tabs.js";
 import { Theme } from "./actions/theme.js";
 import { Toolbar } from "./actions/toolbar.js";
 
+// Frames have a slider of their own, which knows the pressure.
+const VIEWER = {
+  height: null,
+  label: "The actuator",
+  controls: ["fields", "section", "surfaces", "reset", "picture"],
+};
+
 const connection = new Connection(sessionAddress(location));
 const session = new Session(connection);
 
@@ -48,8 +55,8 @@ bindShortcuts([
   { keys: ["Ctrl+O"], what: "open a design", act: () => opening.show() },
   { keys: ["P"], what: "pin this design, to compare", act: () => compare?.pin() },
   { keys: ["D"], what: "as printed, or under pressure", act: () => controls?.toggleMode() },
-  { keys: ["X"], what: "section on or off", act: () => controls?.toggleSection() },
-  { keys: ["V"], what: "view from where it began", act: () => view?.resetView() },
+  { keys: ["S"], what: "section on or off", act: () => view?.toggleSection() },
+  { keys: ["R"], what: "the whole view", act: () => view?.resetView() },
   { keys: ["1"], what: "the shape", act: () => showTab(0) },
   { keys: ["2"], what: "the forces", act: () => showTab(1) },
   { keys: ["?"], what: "this list", act: () => byId("help-dialog").showModal() },
@@ -61,7 +68,7 @@ connection.start();
 function newView() {
   const note = byId("view-note");
   try {
-    const viewer = new globalThis.Bellows.Viewer(byId("canvas"), {});
+    const viewer = new globalThis.Bellows.Viewer(byId("canvas"), VIEWER);
     return new View(byId("stage-view"), session, { viewer, unpack: globalThis.Bellows.unpack, note });
   } catch (error) {
     setText(note, `There is no 3D view here: ${error.message}`);

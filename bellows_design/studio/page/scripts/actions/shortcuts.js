@@ -25,7 +25,8 @@ function keyOf(event) {
 function isOccupied(event) {
   if (document.querySelector("dialog[open]")) return true;
   if (event.altKey) return true;
-  const { tagName, type } = event.target;
+  const { tagName, type, dataset } = event.target;
+  if (dataset.typing) return true; // the field's own undo
   const typing = tagName === "SELECT" || (tagName === "INPUT" && type === "text");
   return typing && !event.ctrlKey && !event.metaKey;
 }

@@ -31,6 +31,8 @@ export class Session extends EventTarget {
   #shapeRevision = -1;
   #opening = null; // `{message, values}` of a design that was asked for, until it is open
 
+  #current = {}; // numbers of the last valid design, by name
+
   start = null;
   opened = {};
   values = {};
@@ -64,6 +66,13 @@ export class Session extends EventTarget {
 
   valueOf(name) {
     return valueOf(this.values, name);
+  }
+
+  /** The design's number, also where it follows from others, as full rounds of fillets do. */
+  shownValue(name) {
+    const value = this.valueOf(name);
+    if (value !== null && value !== valueOf(this.opened, name)) return value;
+    return this.#current[name] ?? value;
   }
 
   /** One value moved: the shape follows at once, the rest after the sliders have rested. */
@@ -207,7 +216,7 @@ export class Session extends EventTarget {
   }
 
   #note(header) {
-    if (header.type === "problems") this.#noteProblems(header.problems);
+    if (header.type === "problems") this.#noteProblems(header);
     if (header.type === "answer") this.#noteAnswer(header);
     if (header.type !== "failed" || NOT_OF_THE_DESIGN.has(header.what)) return;
     if (header.what === "open") this.#notOpened();
@@ -221,8 +230,9 @@ export class Session extends EventTarget {
     this.#connection.send({ type: "rest", revision: this.revision });
   }
 
-  #noteProblems(problems) {
+  #noteProblems({ problems, current }) {
     this.problems = problems;
+    this.#current = current ?? this.#current;
     if (problems.length) this.#setState("invalid");
   }
 
@@ -244,6 +254,7 @@ export class Session extends EventTarget {
   #take(start) {
     this.start = start;
     this.opened = openedValues(start);
+    this.#current = Object.fromEntries(start.parameters.map((each) => [each.name, each.value ?? null]));
     this.values = this.opened;
     this.#forget();
     this.#setState("computing");

@@ -4,7 +4,8 @@
 export function openedValues(start) {
   const values = {};
   for (const each of start.parameters) {
-    if (!each.name.startsWith("indent.")) values[each.name] = each.value ?? null;
+    if (each.name.startsWith("indent.")) continue;
+    values[each.name] = each.automatic ? null : (each.value ?? null);
   }
   values.material = start.material ?? null;
   values.printer = start.printer ?? null;

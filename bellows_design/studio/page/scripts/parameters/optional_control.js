@@ -1,34 +1,25 @@
-// The number of bubbles: given, or as many as fit.
+// A number that follows from others unless it is given, such as how many bubbles fit.
 
-import { element, setText } from "../parts/elements.js";
+import { element } from "../parts/elements.js";
 
-/** The row of the number with a box that leaves it to the length. */
-export function countControl(session, row) {
+const LABELS = {
+  number_of_bubbles: "as many as fit",
+  "limits.max_von_mises": "the material's own limit",
+};
+
+/** Puts a box into `row` that leaves the number to the program; `show` follows the session. */
+export function optionalControl(session, row) {
+  const id = `${row.id}-automatic`;
   const box = element("input", {
     type: "checkbox",
-    id: "as-many-as-fit",
-    change: () => session.move(row.name, box.checked ? null : count),
+    id,
+    change: () => session.move(row.name, box.checked ? null : row.value),
   });
-  const note = element("span", { class: "count-note" });
-  let count = row.parameter.value ?? 1;
-  row.range.before(element("label", { class: "check", for: "as-many-as-fit" }, box, " as many as fit", note));
+  row.range.before(element("label", { class: "check", for: id }, box, LABELS[row.name] ?? "automatic"));
   return {
-    element: row.row,
     show() {
-      const value = session.valueOf(row.name);
-      box.checked = value === null;
-      row.enable(value !== null);
-      if (value !== null) count = value;
-      setText(note, "");
-    },
-    /** How many bubbles the valid design has. */
-    showCount(found) {
-      count = found;
-      if (!box.checked) return;
-      setText(note, `: ${found}`);
-      row.range.value = found;
-      row.range.setAttribute("aria-valuetext", `${found}, as many as fit`);
-      row.field.value = String(found);
+      box.checked = session.valueOf(row.name) === null;
+      row.enable(!box.checked);
     },
   };
 }

@@ -26,18 +26,32 @@ export class SliderRow {
     return this.parameter.name;
   }
 
-  /** Shows a value, beside the one of the opened design. */
-  show(value, opened) {
+  /** The number that stands there. */
+  get value() {
+    return this.#value;
+  }
+
+  /**
+   * Shows `shownValue`, the design's number, which follows from others where `value` is null or the
+   * opened one.
+   */
+  show(value, opened, shownValue) {
     this.#opened = opened;
-    this.#value = value;
-    if (!this.#dragging) this.#window = widened(this.#window, this.parameter, value);
+    this.#value = shownValue;
+    if (!this.#dragging) this.#window = widened(this.#window, this.parameter, shownValue);
     this.#applyWindow();
-    if (value !== null) this.range.value = value;
-    this.range.setAttribute("aria-valuetext", `${shown(value)} ${this.parameter.unit}`);
-    if (document.activeElement !== this.field || !this.field.dataset.typing) this.field.value = shown(value);
-    this.back.hidden = value === opened || opened === null || opened === undefined;
-    this.back.title = `Back to ${shown(opened)} ${this.parameter.unit}`;
-    this.back.setAttribute("aria-label", `${this.parameter.label}: back to ${shown(opened)}`);
+    if (shownValue !== null) this.range.value = shownValue;
+    this.range.setAttribute("aria-valuetext", `${shown(shownValue)} ${this.parameter.unit}`.trim());
+    if (!this.field.dataset.typing) this.field.value = shown(shownValue);
+    this.#showBack(value !== opened);
+  }
+
+  #showBack(changed) {
+    const { label, unit } = this.parameter;
+    this.back.hidden = !changed || this.#opened === undefined;
+    const text = this.#opened === null ? "as before" : `${shown(this.#opened)} ${unit}`.trim();
+    this.back.title = `Back to ${text}`;
+    this.back.setAttribute("aria-label", `${label}: back to ${text}`);
   }
 
   enable(enabled) {
@@ -126,7 +140,9 @@ export class SliderRow {
   #drag(begins) {
     this.#dragging = begins;
     this.handlers.onGesture(begins);
-    if (!begins) this.show(this.#value, this.#opened);
+    if (!begins) this.#window = widened(this.#window, this.parameter, this.#value);
+    this.#applyWindow();
+    this.range.value = this.#value;
   }
 
   #move(raw) {
@@ -135,7 +151,7 @@ export class SliderRow {
   }
 
   #set(value) {
-    if (value !== this.#value) this.handlers.onMove(this.name, value);
+    if (value !== this.#value || value === this.#opened) this.handlers.onMove(this.name, value);
   }
 
   #stepBy(steps) {

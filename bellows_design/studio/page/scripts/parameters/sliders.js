@@ -1,12 +1,12 @@
 // All parameters, grouped, with the choices that are no numbers.
 
 import { element, setText } from "../parts/elements.js";
-import { valueOf } from "../model/values.js";
-import { countControl } from "./count_control.js";
-import { IndentControl } from "./indent_control.js";
 import { withIndent } from "../model/indent.js";
-import { SliderRow } from "./slider_row.js";
+import { valueOf } from "../model/values.js";
 import { Choice } from "./choice.js";
+import { IndentControl } from "./indent_control.js";
+import { optionalControl } from "./optional_control.js";
+import { SliderRow } from "./slider_row.js";
 
 const HINTS = {
   Bubbles: "the chambers that swell, and the gaps between them",
@@ -26,7 +26,7 @@ export class Sliders {
   #rows = new Map();
   #choices = [];
   #indent = null;
-  #count = null;
+  #optional = [];
 
   constructor(host, session) {
     this.#session = session;
@@ -42,7 +42,7 @@ export class Sliders {
     const { start } = this.#session;
     this.#rows.clear();
     this.#choices = [];
-    this.#indent = this.#count = null;
+    this.#optional = [];
     const parameters = withIndent(start.parameters);
     for (const each of parameters) this.#rows.set(each.name, this.#newRow(each));
     const names = [...new Set(parameters.map((each) => each.group))];
@@ -51,10 +51,12 @@ export class Sliders {
   }
 
   #newRow(parameter) {
-    return new SliderRow(parameter, {
+    const row = new SliderRow(parameter, {
       onMove: (name, value) => this.#session.move(name, value),
       onGesture: (begins) => (begins ? this.#session.beginGesture() : this.#session.endGesture()),
     });
+    if (parameter.optional) this.#optional.push(optionalControl(this.#session, row));
+    return row;
   }
 
   #group(name, body) {
@@ -70,17 +72,12 @@ export class Sliders {
   #groupBody(name, parameters) {
     const rows = parameters.filter((each) => each.group === name).map((each) => this.#rows.get(each.name));
     if (name === "Indent") return this.#indentBody(rows);
-    return rows.map((row) => (row.name === "number_of_bubbles" ? this.#countBody(row) : row.row));
+    return rows.map((row) => row.row);
   }
 
   #indentBody(rows) {
     this.#indent = new IndentControl(this.#session, rows);
     return [this.#indent.element];
-  }
-
-  #countBody(row) {
-    this.#count = countControl(this.#session, row);
-    return this.#count.element;
   }
 
   #materialBody() {
@@ -94,21 +91,22 @@ export class Sliders {
 
   #show() {
     const { values, opened } = this.#session;
-    for (const [name, row] of this.#rows) row.show(valueOf(values, name), valueOf(opened, name));
+    for (const [name, row] of this.#rows) {
+      row.show(valueOf(values, name), valueOf(opened, name), this.#session.shownValue(name));
+    }
     for (const choice of this.#choices) choice.show(values, opened);
-    this.#indent?.show();
-    this.#count?.show();
+    for (const control of [...this.#optional, this.#indent]) control.show();
   }
 
-  #showProblems({ problems, bubble_count: count }) {
+  #showProblems({ problems }) {
     const messages = grouped(problems);
     for (const [name, row] of this.#rows) row.showProblem(messages.get(name) ?? "");
     for (const choice of this.#choices) choice.showProblem(messages.get(choice.name) ?? "");
-    if (count !== undefined && count !== null) this.#count?.showCount(count);
     const others = [...messages].filter(([name]) => !this.#isShown(name)).map(([, text]) => text);
     const summary = document.getElementById("problem-summary");
     setText(summary, problems.length ? summaryText(problems.length, others) : "");
     summary.hidden = !problems.length;
+    if (!problems.length) this.#show();
   }
 
   #isShown(name) {

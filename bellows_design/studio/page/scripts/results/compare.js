@@ -17,11 +17,9 @@ export class Compare {
     this.#figures = figures;
     this.card = byId("pinned");
     this.text = byId("pinned-text");
-    this.ghost = byId("show-ghost");
     byId("pin").addEventListener("click", () => this.pin());
     byId("pinned-remove").addEventListener("click", () => this.remove());
     byId("pinned-take").addEventListener("click", () => session.takeUp(this.#pin));
-    this.ghost.addEventListener("change", () => this.#showGhost());
     session.addEventListener("answer", () => this.#complete());
     view.addEventListener("scene", () => this.#complete());
     session.addEventListener("values", () => this.#show());
@@ -31,7 +29,6 @@ export class Compare {
     const { start, values, revision, answer } = this.#session;
     if (!start) return;
     this.#pin = { start, values, revision, answer, snapshot: this.#view.snapshot };
-    this.ghost.checked = true;
     this.#apply();
   }
 
@@ -60,7 +57,7 @@ export class Compare {
   }
 
   #showGhost() {
-    const wanted = this.#pin && this.ghost.checked && !this.#isCurrent();
+    const wanted = this.#pin && !this.#isCurrent();
     const snapshot = wanted ? this.#pin.snapshot : null;
     if (snapshot === this.#shownGhost) return;
     this.#shownGhost = snapshot;

@@ -1,7 +1,7 @@
 // The printability rules as lights, and the verdict in a sentence.
 
 import { element, setText } from "../parts/elements.js";
-import { readable } from "./choice.js";
+import { readable } from "../parameters/choice.js";
 
 const ORDER = ["fail", "warn", "info", "pass"];
 const SIGNS = { fail: "✕", warn: "!", info: "i", pass: "✓" };

@@ -1,7 +1,7 @@
-// What the 3D view is given: the shape at rest, or the deformed one, and beside it the pinned one.
+// Scenes as the 3D view is given them.
 
-export const GHOST = "pinned";
-const GHOST_OPACITY = 0.28;
+const GHOST = "pinned";
+const GHOST_OPACITY = 0.3;
 const GHOST_COLOUR = "#8a8f98";
 
 /** `scene` with the surfaces of another one, pale and without values. */
@@ -18,13 +18,15 @@ export function withGhost(scene, other) {
   return { ...scene, surfaces: [...scene.surfaces, ...ghosts] };
 }
 
-/** Names of all values that the scene's surfaces carry. */
-export function fieldNames(scene) {
-  return [...new Set(scene.surfaces.flatMap((surface) => (surface.fields ?? []).map((field) => field.name)))];
+/** Name of the first values that the scene's surfaces carry, or null. */
+export function firstField(scene) {
+  return scene.surfaces.flatMap((surface) => surface.fields ?? [])[0]?.name ?? null;
 }
 
-/** Least and greatest coordinate of the scene along x, y and z, mm. */
-export function extent(scene) {
-  const along = (axis, bound, choose) => choose(...scene.surfaces.map((surface) => surface[bound][axis]));
-  return [0, 1, 2].map((axis) => [along(axis, "low", Math.min), along(axis, "high", Math.max)]);
+/** Whether a box has grown or shrunk so much that the camera should see it anew. */
+export function differsMuch(box, other) {
+  if (!other) return true;
+  const size = Math.hypot(...box.high.map((high, axis) => high - box.low[axis]));
+  const off = (bound) => box[bound].some((value, axis) => Math.abs(value - other[bound][axis]) > 0.12 * size);
+  return off("low") || off("high");
 }

@@ -1,28 +1,30 @@
 // The 3D view: the shape while sliders move, and the deformed one once it is computed.
 
 import { setText } from "../parts/elements.js";
-import { GHOST, fieldNames, withGhost } from "./scenes_shown.js";
+import { differsMuch, firstField, withGhost } from "./scenes_shown.js";
 
 const INFLATING_MS = 300;
 
 /**
  * Shows the session's shapes with `viewer`, a `Bellows.Viewer`; `unpack` makes a scene of a message.
  *
- * Events: `scene`, when another scene is shown; `blend`, when the share of the pressure changed.
+ * Event: `scene`, when another scene or another share of the pressure is shown.
  */
 export class View extends EventTarget {
   #session;
   #viewer;
   #unpack;
   #host;
-  #rest = null; // {scene, revision}
-  #deformed = null;
+  #note;
+  #known = { rest: null, deformed: null }; // {scene, revision} each
+  #fields = { rest: null, deformed: undefined }; // as chosen; undefined: the first there is
+  #shown = null; // "rest" or "deformed"
   #ghost = null; // {rest, deformed}
+  #box = null; // that the camera was turned to
   #frame = 0;
 
   mode = "pressure"; // or "printed"
   blend = 1;
-  field = undefined; // undefined: the first there is; null: none
 
   constructor(host, session, { viewer, unpack, note }) {
     super();
@@ -30,26 +32,22 @@ export class View extends EventTarget {
     this.#viewer = viewer;
     this.#unpack = unpack;
     this.#host = host;
-    this.note = note;
-    session.addEventListener("start", () => this.#forget());
+    this.#note = note;
+    session.addEventListener("start", () => (this.#box = null));
     session.addEventListener("shape", (event) => this.#take(event.detail, "rest"));
     session.addEventListener("deformed", (event) => this.#take(event.detail, "deformed"));
     session.addEventListener("state", () => this.#showState());
   }
 
-  /** The scene that is shown, without the pinned one; null before the first. */
-  get scene() {
-    return this.#chosen()?.scene ?? null;
-  }
-
   /** Whether the deformed shape of the design on the sliders is known. */
   get hasDeformed() {
-    return this.#deformed !== null && this.#deformed.revision === this.#session.revision;
+    return this.#known.deformed?.revision === this.#session.revision;
   }
 
   /** What is known of the design on the sliders, to be pinned. */
   get snapshot() {
-    return { rest: this.#rest?.scene ?? null, deformed: this.hasDeformed ? this.#deformed.scene : null };
+    const { rest, deformed } = this.#known;
+    return { rest: rest?.scene ?? null, deformed: this.hasDeformed ? deformed.scene : null };
   }
 
   setMode(mode) {
@@ -60,17 +58,8 @@ export class View extends EventTarget {
   setBlend(blend) {
     cancelAnimationFrame(this.#frame);
     this.blend = blend;
-    if (this.mode === "pressure" && this.hasDeformed) this.#viewer.setFrame(blend);
-    this.dispatchEvent(new CustomEvent("blend"));
-  }
-
-  setField(name) {
-    this.field = name;
-    this.#applyField();
-  }
-
-  setSection(section) {
-    this.#viewer.setSection(section);
+    if (this.#shown === "deformed") this.#viewer.setFrame(blend);
+    this.dispatchEvent(new CustomEvent("scene"));
   }
 
   setGhost(snapshot) {
@@ -78,92 +67,76 @@ export class View extends EventTarget {
     this.#show();
   }
 
-  showGhost(visible) {
-    for (const { name } of this.#shownGhosts()) this.#viewer.setVisible(name, visible);
-  }
-
   resetView() {
     this.#viewer.resetView();
   }
 
-  #forget() {
-    this.#deformed = null;
-    this.#fresh = true;
+  toggleSection() {
+    this.#viewer.setSection({ on: !this.#viewer.section.on });
   }
-
-  #fresh = true; // the next scene is of another design: the camera turns to it
 
   async #take({ header, payload }, kind) {
-    const scene = await this.#unpack(payload);
     const { revision } = header;
-    if (kind === "rest") {
-      if (this.#rest && revision < this.#rest.revision) return;
-      this.#rest = { scene, revision };
-    } else {
-      if (revision !== this.#session.revision) return;
-      const first = !this.hasDeformed;
-      this.#deformed = { scene, revision };
-      if (first && this.mode === "pressure") return this.#inflate();
-    }
-    this.#show();
-  }
-
-  #chosen() {
-    return this.mode === "pressure" && this.hasDeformed ? this.#deformed : this.#rest;
+    const scene = await this.#unpack(payload);
+    if (revision < (this.#known[kind]?.revision ?? -1)) return;
+    if (kind === "deformed" && revision !== this.#session.revision) return;
+    const isFirst = kind === "deformed" && !this.hasDeformed;
+    this.#known[kind] = { scene, revision };
+    if (isFirst && this.mode === "pressure") this.#inflate();
+    else this.#show();
   }
 
   #show() {
-    const chosen = this.#chosen();
-    if (!chosen) return;
-    const deformed = chosen === this.#deformed;
-    const ghost = this.#ghost && (deformed ? (this.#ghost.deformed ?? this.#ghost.rest) : this.#ghost.rest);
-    this.#viewer.show(withGhost(chosen.scene, ghost), { keepView: !this.#fresh });
-    this.#fresh = false;
-    if (deformed) this.#viewer.setFrame(this.blend);
-    this.#applyField();
+    const kind = this.mode === "pressure" && this.hasDeformed ? "deformed" : "rest";
+    const { scene } = this.#known[kind] ?? {};
+    if (!scene) return;
+    this.#keepField();
+    this.#shown = kind;
+    const ghost = this.#ghost && (this.#ghost[kind] ?? this.#ghost.rest);
+    this.#viewer.show(withGhost(scene, ghost), { keepView: true });
+    const field = this.#fields[kind];
+    this.#viewer.setField(field === undefined ? firstField(scene) : field);
+    if (kind === "deformed") this.#viewer.setFrame(this.blend);
+    this.#fit();
     this.#showState();
     this.dispatchEvent(new CustomEvent("scene"));
   }
 
-  #applyField() {
-    if (!this.scene) return;
-    const names = fieldNames(this.scene);
-    const wanted = this.field === undefined ? (names[0] ?? null) : this.field;
-    this.#viewer.setField(names.includes(wanted) ? wanted : null);
+  /** Each of both shapes keeps the colours that were chosen for it in the viewer's own bar. */
+  #keepField() {
+    if (this.#shown) this.#fields[this.#shown] = this.#viewer.field;
+  }
+
+  /** The camera follows the part as long as nobody has turned it, but not at every small step. */
+  #fit() {
+    const { bounds } = this.#viewer;
+    if (this.#box && (this.#viewer.touched || !differsMuch(bounds, this.#box))) return;
+    if (this.#box && this.#shown === "rest" && this.mode === "pressure") return;
+    this.#box = bounds;
+    this.#viewer.resetView();
   }
 
   /** The finger bends from rest to the pressure, unless motion is unwanted. */
   #inflate() {
+    cancelAnimationFrame(this.#frame);
     const target = this.blend;
-    const still = matchMedia("(prefers-reduced-motion: reduce)").matches;
-    this.blend = still ? target : 0;
+    if (matchMedia("(prefers-reduced-motion: reduce)").matches || target === 0) return this.#show();
     this.#show();
-    if (still) return;
     const begin = performance.now();
     const step = (now) => {
-      const share = Math.min(1, (now - begin) / INFLATING_MS);
-      this.blend = target * share * (2 - share);
-      this.#viewer.setFrame(this.blend);
+      const share = Math.min(1, Math.max(0, (now - begin) / INFLATING_MS));
+      this.#viewer.setFrame(target * share * (2 - share));
       if (share < 1) this.#frame = requestAnimationFrame(step);
     };
-    cancelAnimationFrame(this.#frame);
-    this.#frame = requestAnimationFrame(step);
-  }
-
-  #shownGhosts() {
-    return this.#ghost ? [{ name: GHOST }] : [];
+    step(begin);
   }
 
   /** What is seen, and whether it is the design on the sliders. */
   #showState() {
     const { state } = this.#session;
     this.#host.classList.toggle("dimmed", state === "invalid");
-    const atRest = this.mode === "pressure" && !this.hasDeformed;
-    const texts = {
-      invalid: "the last valid shape",
-      failed: "at rest: there is no deformed shape of this design",
-    };
-    const waiting = atRest && this.#rest ? "at rest; the deformed shape follows" : "";
-    setText(this.note, texts[state] ?? waiting);
+    const follows = this.mode === "pressure" && !this.hasDeformed && this.#shown;
+    const texts = { invalid: "the last valid shape", failed: "at rest: no deformed shape of this design is known" };
+    setText(this.#note, texts[state] ?? (follows ? "at rest; the deformed shape follows" : ""));
   }
 }
