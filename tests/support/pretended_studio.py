@@ -243,7 +243,7 @@ class _Talk:
     async def changed(self, design: Design, revision: int) -> None:
         self.design = self.studio._designs[revision] = design
         current = {name: _number(design, name) for name, *_ in SLIDERS}
-        await self.say("problems", revision=revision, problems=[], current=current)
+        await self.say("problems", revision=revision, problems=[], values=current)
         await self.say("lights", revision=revision, source="declared", lights=_lights(design))
         await self.say_binary("shape", shape_of(design, deformed=False), revision=revision)
 
@@ -336,7 +336,7 @@ def _answer(design: Design, revision: int, state: str) -> dict[str, Any]:
         "bending_angle_deg": angle_of(design), "angle_error_percent": 2.5,
         "max_von_mises_mpa": stress, "stress_error_percent": 5.0, "stress_limit_mpa": 4.0,
         "cavity_volume_mm3": 9000.0, "converged": True, "warnings": [], "seconds": 0.1,
-        "verdict": "approved" if stress <= 4 else "rejected",
+        "verdict": "pass" if stress <= 4 else "fail",
         "reasons": [] if stress <= 4 else [f"{stress:.3g} MPa of stress exceed the limit of 4 MPa."],
         "how": "made up for tests", "digest": design.digest,
     }  # fmt: skip

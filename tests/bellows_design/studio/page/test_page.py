@@ -124,7 +124,7 @@ def test_figures_of_an_older_design_are_never_shown_as_current(
     _settle(page, "computing")
     revision = studio.last("rest")["revision"]
     late = {"state": "refined", "bending_angle_deg": 1.0, "max_von_mises_mpa": 1.0,
-            "cavity_volume_mm3": 1.0, "verdict": "approved"}  # fmt: skip
+            "cavity_volume_mm3": 1.0, "verdict": "pass"}  # fmt: skip
     studio.say("answer", revision=revision - 1, **late)
     page.wait_for_timeout(100)
     assert page.locator("#figures").get_attribute("data-state") == "computing"
@@ -136,7 +136,7 @@ def test_figures_of_an_older_design_are_never_shown_as_current(
 def test_preview_never_replaces_the_refined_answer(page: Any, studio: PretendedStudio) -> None:
     revision = int(page.locator("#angle").get_attribute("data-revision"))
     studio.say("answer", revision=revision, state="preview", bending_angle_deg=1.0,
-               max_von_mises_mpa=1.0, cavity_volume_mm3=1.0, verdict="approved")  # fmt: skip
+               max_von_mises_mpa=1.0, cavity_volume_mm3=1.0, verdict="pass")  # fmt: skip
     page.wait_for_timeout(100)
     assert page.locator("#state").inner_text() == "refined"
     assert page.locator("#angle").inner_text() != "1.0"

@@ -71,7 +71,7 @@ export class Figures {
 
   #take(answer) {
     this.#shown = answer;
-    setText(this.how, answer.how ?? "");
+    setText(this.how, sentence(answer));
     setText(this.live, spoken(answer));
   }
 
@@ -101,17 +101,19 @@ export class Figures {
     for (const each of [this.angle, this.stress, this.air]) each.note(prefix);
   }
 
-  #working({ what, fraction }) {
-    if (what !== "preview" && what !== "refined") return;
+  #working({ what, fraction, message }) {
     const { state } = this.#session;
-    const share = fraction === null || fraction === undefined ? "" : ` ${Math.round(100 * fraction)} %`;
-    if (state === "computing") setText(this.badge, `computing…${share}`);
-    if (state === "preview" && what === "refined") setText(this.badge, `preview, refining…${share}`);
+    const share = fraction ? ` ${Math.round(100 * fraction)} %` : "";
+    if (what === "preview" && state === "computing") setText(this.badge, `computing…${share}`);
+    if (what === "preview" && message && state === "computing") setText(this.how, message);
+    if (what === "refine" && state === "computing") setText(this.badge, `refining…${share}`);
+    if (what === "refine" && state === "preview") setText(this.badge, `preview, refining…${share}`);
   }
 
   #failed({ what, message }) {
+    if (what !== "refine") return;
     if (this.#session.state === "failed") setText(this.how, message);
-    else if (what === "refined") setText(this.how, `${this.#shown?.how ?? ""} It was not refined: ${message}`);
+    else setText(this.how, `${sentence(this.#shown)} It was not refined: ${message}`);
   }
 }
 
@@ -165,6 +167,12 @@ class StressBar {
     this.element.dataset.level = stress + error <= limit ? "good" : stress <= limit ? "near" : "over";
     setText(this.text, `${Math.round((100 * stress) / limit)} % of the limit, ${shown(limit, 3)} MPa`);
   }
+}
+
+/** How the figures were found, and that they are of a lower pressure where they are. */
+function sentence({ how, converged, message }) {
+  const found = how ? `${how[0].toUpperCase()}${how.slice(1)}.` : "";
+  return converged === false && message ? `${found} ${message}` : found;
 }
 
 function margin(value, percent, decimals) {

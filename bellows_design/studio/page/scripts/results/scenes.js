@@ -76,8 +76,8 @@ export class Scenes {
     return number >= field.least && number <= field.most ? number : NaN;
   }
 
-  #take({ svg, figures, message }) {
-    this.#finish(message ?? "");
+  #take({ svg, figures, message, warnings }) {
+    this.#finish([message, ...(warnings ?? [])].filter(Boolean).join(" "));
     const blob = new Blob([svg], { type: "image/svg+xml" });
     const former = this.#picture;
     this.#picture = URL.createObjectURL(blob);
