@@ -120,7 +120,7 @@ def test_figures_of_an_older_design_are_never_shown_as_current(
     studio.held = True
     _type(page, "bubble_height", "24")
     assert page.locator("#angle").get_attribute("data-state") == "old"
-    assert "out of date" in page.locator("#figures .figure").first.inner_text()
+    assert "out of date" in page.locator("#figures .reading").first.inner_text()
     _settle(page, "computing")
     revision = studio.last("rest")["revision"]
     late = {"state": "refined", "bending_angle_deg": 1.0, "max_von_mises_mpa": 1.0,

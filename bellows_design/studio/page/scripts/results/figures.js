@@ -22,7 +22,7 @@ export class Figures {
 
   constructor(host, session) {
     this.#session = session;
-    this.badge = element("span", { class: "badge", id: "state" });
+    this.badge = element("span", { class: "state-badge", id: "state" });
     this.how = element("p", { class: "how", id: "how" });
     this.angle = figure("angle", "Bending angle");
     this.stress = figure("stress", "Highest stress");
@@ -121,11 +121,11 @@ function figure(id, label) {
   const note = element("span", { class: "for-readers" });
   const value = element("span", { class: "value", id }, "–");
   const unit = element("span", { class: "value-unit" });
-  const error = element("span", { class: "error" });
+  const error = element("span", { class: "margin" });
   const compared = element("span", { class: "compared", id: `${id}-compared`, hidden: true });
   const row = element(
     "div",
-    { class: "figure", role: "group", "aria-label": label },
+    { class: "reading", role: "group", "aria-label": label },
     element("span", { class: "figure-label" }, label),
     element("span", { class: "figure-value" }, note, value, unit, error),
     compared,
@@ -153,7 +153,7 @@ class StressBar {
     this.band = element("div", { class: "bar-band" });
     this.text = element("span", { class: "bar-text" });
     this.track = element("div", { class: "bar-track", "aria-hidden": "true" }, this.fill, this.band, element("div", { class: "bar-limit" }));
-    this.element = element("div", { class: "bar" }, this.track, this.text);
+    this.element = element("div", { class: "stress-bar" }, this.track, this.text);
   }
 
   show({ max_von_mises_mpa: stress, stress_error_percent: percent, stress_limit_mpa: limit }) {

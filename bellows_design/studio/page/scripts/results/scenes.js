@@ -46,7 +46,7 @@ export class Scenes {
       : element("input", { id, type: "text", inputmode: "decimal", value: shown(field.value), autocomplete: "off" });
     this.#inputs.set(field.name, input);
     const unit = field.unit ? element("span", { class: "unit" }, field.unit) : null;
-    return element("div", { class: "scene-field", "data-field": field.name }, element("label", { for: id }, field.label), element("span", { class: "number" }, input, unit));
+    return element("div", { class: "scene-field", "data-field": field.name }, element("label", { for: id }, field.label), element("span", { class: "entry" }, input, unit));
   }
 
   /** Keys that the chosen support does not know are hidden. */
