@@ -224,6 +224,7 @@ export class Session extends EventTarget {
 
   /** The design asked for cannot be opened: we go on with the one we have. */
   #notOpened() {
+    if (!this.start || !this.#opening) return;
     this.#opening = null;
     this.#sendValues();
     this.#connection.send({ type: "rest", revision: this.revision });
