@@ -31,7 +31,7 @@ TEXTS: Mapping[str, tuple[str, ...]] = {
 }
 """Keys that must be there, as text."""
 
-COUNTED = ("change", "rest", "scene", "run", "toml")
+COUNTED = ("change", "rest", "open", "open_toml", "scene", "run", "toml")
 """Kinds that belong to a revision."""
 
 

@@ -23,6 +23,7 @@ from bellows_design.design.shipped import load_design, shipped_designs
 from bellows_design.errors import DesignError
 from bellows_design.web.packing import packed
 from bellows_design.web.scene import Field, Surface
+from bellows_design.web.style import page_style
 
 PAGE = Path(bellows_design.studio.__file__).parent / "page"
 WEB = PAGE.parents[1] / "web"
@@ -159,7 +160,7 @@ class PretendedStudio:
         path = request.match_info["path"]
         headers = {"Content-Security-Policy": POLICY, "Cache-Control": "no-store"}
         if path == "assets/style.css":
-            return web.Response(text=_style(), content_type="text/css", headers=headers)
+            return web.Response(text=page_style(), content_type="text/css", headers=headers)
         if path == "assets/viewer.js":
             return web.FileResponse(WEB / "assets/viewer.js", headers=headers)
         name = path.removeprefix("assets/page/") or "index.html"
@@ -243,7 +244,7 @@ class _Talk:
     async def changed(self, design: Design, revision: int) -> None:
         self.design = self.studio._designs[revision] = design
         current = {name: _number(design, name) for name, *_ in SLIDERS}
-        await self.say("problems", revision=revision, problems=[], current=current)
+        await self.say("problems", revision=revision, problems=[], values=current)
         await self.say("lights", revision=revision, source="declared", lights=_lights(design))
         await self.say_binary("shape", shape_of(design, deformed=False), revision=revision)
 
@@ -336,19 +337,7 @@ def _answer(design: Design, revision: int, state: str) -> dict[str, Any]:
         "bending_angle_deg": angle_of(design), "angle_error_percent": 2.5,
         "max_von_mises_mpa": stress, "stress_error_percent": 5.0, "stress_limit_mpa": 4.0,
         "cavity_volume_mm3": 9000.0, "converged": True, "warnings": [], "seconds": 0.1,
-        "verdict": "approved" if stress <= 4 else "rejected",
+        "verdict": "pass" if stress <= 4 else "fail",
         "reasons": [] if stress <= 4 else [f"{stress:.3g} MPa of stress exceed the limit of 4 MPa."],
         "how": "made up for tests", "digest": design.digest,
     }  # fmt: skip
-
-
-def _style() -> str:
-    try:
-        from bellows_design.web.style import page_style
-        return page_style()
-    except ImportError:
-        pass
-    light = "ink:#1a222b;muted:#55616e;stage:#f3f5f8;card:#fff;line:#cfd6de;accent:#0b62a8;page:#eceff3;pass:#1b7f3b;warn:#9a6200;fail:#b3261e"
-    dark = "ink:#e7ecf1;muted:#a3afbb;stage:#151b22;card:#1d242d;line:#3a4551;accent:#6cb6f5;page:#10151b;pass:#6fd08c;warn:#f0bd5a;fail:#ff8a80"
-    def v(t): return "".join(f"--bellows-{x};" for x in t.split(";"))
-    return f":root{{{v(light)}color-scheme:light}}@media (prefers-color-scheme: dark){{:root:not([data-theme=light]){{{v(dark)}color-scheme:dark}}}}:root[data-theme=dark]{{{v(dark)}color-scheme:dark}}"

@@ -38,10 +38,11 @@ export class Exporting {
     else this.bar.value = fraction;
   }
 
-  #ran({ approved, reasons, files }) {
-    this.#end(approved ? "Approved. The part is ready to be printed." : "Not approved. What was written is for inspection only.");
+  #ran({ approved, reasons, warnings, not_judged: open, files }) {
+    this.#end(approved ? "Approved. The part is ready to be printed." : "Not approved, and so nothing was written:");
     this.status.dataset.level = approved ? "pass" : "fail";
-    byId("run-reasons").replaceChildren(...(reasons ?? []).map((reason) => element("li", {}, reason)));
+    const lines = [reasons, open, warnings].flatMap((each) => each ?? []);
+    byId("run-reasons").replaceChildren(...lines.map((line) => element("li", {}, line)));
     byId("run-files").replaceChildren(...(files ?? []).map(link));
   }
 

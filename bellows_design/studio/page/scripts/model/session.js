@@ -7,11 +7,10 @@ export const REST_MS = 120;
 
 // These speak of one revision only; once the sliders have moved on they say nothing any more.
 const OF_ONE_REVISION = new Set([
-  "problems", "lights", "answer", "deformed", "sensitivities", "scene", "working", "failed", "ran",
+  "problems", "lights", "shape_follows", "answer", "deformed", "sensitivities", "scene", "working",
+  "failed", "ran",
 ]);
 
-// What fails there leaves the figures of the design as they are.
-const NOT_OF_THE_DESIGN = new Set(["run", "scene", "sensitivities", "deformed"]);
 
 /**
  * States of the figures: "waiting" (no connection yet), "moving", "computing", "preview", "refined",
@@ -218,21 +217,22 @@ export class Session extends EventTarget {
   #note(header) {
     if (header.type === "problems") this.#noteProblems(header);
     if (header.type === "answer") this.#noteAnswer(header);
-    if (header.type !== "failed" || NOT_OF_THE_DESIGN.has(header.what)) return;
+    if (header.type !== "failed") return;
     if (header.what === "open") this.#notOpened();
-    else this.#setState("failed");
+    else if (header.what === "refine" && !this.answer) this.#setState("failed");
   }
 
   /** The design asked for cannot be opened: we go on with the one we have. */
   #notOpened() {
+    if (!this.start || !this.#opening) return;
     this.#opening = null;
     this.#sendValues();
     this.#connection.send({ type: "rest", revision: this.revision });
   }
 
-  #noteProblems({ problems, current }) {
+  #noteProblems({ problems, values }) {
     this.problems = problems;
-    this.#current = current ?? this.#current;
+    this.#current = values ?? this.#current;
     if (problems.length) this.#setState("invalid");
   }
 

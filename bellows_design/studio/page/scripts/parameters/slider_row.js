@@ -89,7 +89,7 @@ export class SliderRow {
         { class: "slider-head" },
         element("label", { for: `${id}-range` }, parameter.label),
         this.back,
-        element("span", { class: "number" }, this.field, element("span", { class: "unit" }, parameter.unit)),
+        element("span", { class: "entry" }, this.field, element("span", { class: "unit" }, parameter.unit)),
       ),
       this.range,
       this.arrow,

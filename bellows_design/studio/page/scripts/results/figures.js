@@ -22,7 +22,7 @@ export class Figures {
 
   constructor(host, session) {
     this.#session = session;
-    this.badge = element("span", { class: "badge", id: "state" });
+    this.badge = element("span", { class: "state-badge", id: "state" });
     this.how = element("p", { class: "how", id: "how" });
     this.angle = figure("angle", "Bending angle");
     this.stress = figure("stress", "Highest stress");
@@ -71,7 +71,7 @@ export class Figures {
 
   #take(answer) {
     this.#shown = answer;
-    setText(this.how, answer.how ?? "");
+    setText(this.how, sentence(answer));
     setText(this.live, spoken(answer));
   }
 
@@ -101,17 +101,19 @@ export class Figures {
     for (const each of [this.angle, this.stress, this.air]) each.note(prefix);
   }
 
-  #working({ what, fraction }) {
-    if (what !== "preview" && what !== "refined") return;
+  #working({ what, fraction, message }) {
     const { state } = this.#session;
-    const share = fraction === null || fraction === undefined ? "" : ` ${Math.round(100 * fraction)} %`;
-    if (state === "computing") setText(this.badge, `computing…${share}`);
-    if (state === "preview" && what === "refined") setText(this.badge, `preview, refining…${share}`);
+    const share = fraction ? ` ${Math.round(100 * fraction)} %` : "";
+    if (what === "preview" && state === "computing") setText(this.badge, `computing…${share}`);
+    if (what === "preview" && message && state === "computing") setText(this.how, message);
+    if (what === "refine" && state === "computing") setText(this.badge, `refining…${share}`);
+    if (what === "refine" && state === "preview") setText(this.badge, `preview, refining…${share}`);
   }
 
   #failed({ what, message }) {
+    if (what !== "refine") return;
     if (this.#session.state === "failed") setText(this.how, message);
-    else if (what === "refined") setText(this.how, `${this.#shown?.how ?? ""} It was not refined: ${message}`);
+    else setText(this.how, `${sentence(this.#shown)} It was not refined: ${message}`);
   }
 }
 
@@ -119,11 +121,11 @@ function figure(id, label) {
   const note = element("span", { class: "for-readers" });
   const value = element("span", { class: "value", id }, "–");
   const unit = element("span", { class: "value-unit" });
-  const error = element("span", { class: "error" });
+  const error = element("span", { class: "margin" });
   const compared = element("span", { class: "compared", id: `${id}-compared`, hidden: true });
   const row = element(
     "div",
-    { class: "figure", role: "group", "aria-label": label },
+    { class: "reading", role: "group", "aria-label": label },
     element("span", { class: "figure-label" }, label),
     element("span", { class: "figure-value" }, note, value, unit, error),
     compared,
@@ -151,7 +153,7 @@ class StressBar {
     this.band = element("div", { class: "bar-band" });
     this.text = element("span", { class: "bar-text" });
     this.track = element("div", { class: "bar-track", "aria-hidden": "true" }, this.fill, this.band, element("div", { class: "bar-limit" }));
-    this.element = element("div", { class: "bar" }, this.track, this.text);
+    this.element = element("div", { class: "stress-bar" }, this.track, this.text);
   }
 
   show({ max_von_mises_mpa: stress, stress_error_percent: percent, stress_limit_mpa: limit }) {
@@ -165,6 +167,12 @@ class StressBar {
     this.element.dataset.level = stress + error <= limit ? "good" : stress <= limit ? "near" : "over";
     setText(this.text, `${Math.round((100 * stress) / limit)} % of the limit, ${shown(limit, 3)} MPa`);
   }
+}
+
+/** How the figures were found, and that they are of a lower pressure where they are. */
+function sentence({ how, converged, message }) {
+  const found = how ? `${how[0].toUpperCase()}${how.slice(1)}.` : "";
+  return converged === false && message ? `${found} ${message}` : found;
 }
 
 function margin(value, percent, decimals) {

@@ -5,6 +5,13 @@ import { readable } from "../parameters/choice.js";
 
 const ORDER = ["fail", "warn", "info", "pass"];
 const SIGNS = { fail: "✕", warn: "!", info: "i", pass: "✓" };
+const SENTENCES = {
+  pass: (preview) => (preview ? "Holds, as far as the preview can say." : "Fit to be printed and to hold."),
+  fail: (preview) => (preview ? "Would not be approved, by the preview:" : "Not approved:"),
+  undecided: () => "Too close to a limit to be decided at this accuracy:",
+  unknown: () => "Not yet known.",
+};
+
 const SOURCES = {
   true: "measured on the part",
   false: "by the declared numbers; the part itself is measured once the sliders rest",
@@ -68,19 +75,8 @@ function verdictOf(answer, state, problems) {
   }
   if (!answer) return { level: "unknown", text: "Not yet known.", reasons: [] };
   const reasons = [...(answer.reasons ?? []), ...(answer.warnings ?? []).map((each) => `Note: ${each}`)];
-  return { level: levelOf(answer.verdict), text: sentence(answer), reasons };
-}
-
-function levelOf(verdict) {
-  if (verdict === null || verdict === undefined) return "unknown";
-  return ["approved", "pass", true].includes(verdict) ? "pass" : "fail";
-}
-
-function sentence({ verdict, state }) {
-  const level = levelOf(verdict);
-  if (level === "unknown") return "Not yet known.";
-  const provisional = state === "preview" ? " by the preview" : "";
-  return level === "pass" ? `Fit to be printed and to hold${provisional}.` : `Not to be approved${provisional}:`;
+  const level = answer.verdict in SENTENCES ? answer.verdict : "unknown";
+  return { level, text: SENTENCES[level](answer.state === "preview"), reasons };
 }
 
 function sorted(lights) {

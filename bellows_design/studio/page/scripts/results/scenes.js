@@ -46,7 +46,7 @@ export class Scenes {
       : element("input", { id, type: "text", inputmode: "decimal", value: shown(field.value), autocomplete: "off" });
     this.#inputs.set(field.name, input);
     const unit = field.unit ? element("span", { class: "unit" }, field.unit) : null;
-    return element("div", { class: "scene-field", "data-field": field.name }, element("label", { for: id }, field.label), element("span", { class: "number" }, input, unit));
+    return element("div", { class: "scene-field", "data-field": field.name }, element("label", { for: id }, field.label), element("span", { class: "entry" }, input, unit));
   }
 
   /** Keys that the chosen support does not know are hidden. */
@@ -76,8 +76,8 @@ export class Scenes {
     return number >= field.least && number <= field.most ? number : NaN;
   }
 
-  #take({ svg, figures, message }) {
-    this.#finish(message ?? "");
+  #take({ svg, figures, message, warnings }) {
+    this.#finish([message, ...(warnings ?? [])].filter(Boolean).join(" "));
     const blob = new Blob([svg], { type: "image/svg+xml" });
     const former = this.#picture;
     this.#picture = URL.createObjectURL(blob);
