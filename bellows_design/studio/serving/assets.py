@@ -32,7 +32,7 @@ def assets() -> Mapping[str, Asset]:
     """The page's own files below ``page/``, the viewer and the style that all pages share."""
     own = dict(_below(files("bellows_design.studio") / "page", "page/"))
     shared = dict(_below(files("bellows_design.web") / "assets", ""))
-    return own | shared | {"style.css": shared.get("page.css", Asset(b"", KINDS[".css"]))}
+    return own | shared | {"style.css": shared["page.css"]}
 
 
 def _below(folder: Traversable, prefix: str) -> Iterator[tuple[str, Asset]]:
