@@ -41,6 +41,9 @@ INPUTS, REST, PAUSE, TICK = 6, 0.12, 1.0, 0.01
 LONGEST = 60.0
 """s. No answer and no explanation by then counts as stuck."""
 
+FIRST = 900.0
+"""s. The first time everything is compiled."""
+
 LEFT_OUT = ("limits.", "port.", "mount.", "fingertip.")
 
 
@@ -88,7 +91,7 @@ class Client:
 
     async def until(self, *kinds: str) -> dict[str, Any]:
         while True:
-            found = await self.heard()
+            found = await self.heard(FIRST)
             if found["type"] in kinds:
                 return found
 
@@ -145,9 +148,7 @@ async def drive(address: str, design: str, moves: int) -> list[Move]:
             client.start = await client.until("start")
             await client.until("sensitivities", "failed")
             names = [
-                each
-                for each in client.start["parameters"]
-                if not each["name"].startswith(LEFT_OUT)
+                each for each in client.start["parameters"] if not each["name"].startswith(LEFT_OUT)
             ]
             for _ in range(moves):
                 slider = chance.choice(names)

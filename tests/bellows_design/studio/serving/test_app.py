@@ -213,7 +213,10 @@ def test_files_of_a_run_are_handed_out_by_name_and_links_are_not(tmp_path: Path)
                 assert "attachment" in file.headers["Content-Disposition"]
                 assert "Content-Security-Policy" in file.headers
             for name in ("link", "secret"):
-                assert await status(client, address(studio, f"/exports/part/{name}?token={token}")) == 404
+                assert (
+                    await status(client, address(studio, f"/exports/part/{name}?token={token}"))
+                    == 404
+                )
 
     in_loop(tmp_path, check)
 
