@@ -114,18 +114,22 @@ class Neighbourhood:
             return ordinary(design, self.anchor.model.name, str(reason), progress, budget)
 
     def continued(
-        self, design: Design, progress: Progress = SILENCE, reach: float = REACH
+        self,
+        design: Design,
+        progress: Progress = SILENCE,
+        reach: float = REACH,
+        halvings: int = MOST_HALVINGS,
     ) -> NeighbourEvaluation:
         """The same without the ordinary evaluation at last: for previews, which cannot wait for it.
 
-        ``progress`` may raise to end a solve.
+        ``progress`` may raise to end a solve; the way is halved no more often than ``halvings``.
 
         Raises:
             BellowsError, SolverError: The design cannot be reached; the message says why.
         """
         began = time.perf_counter()
         self._require_near(design, reach)
-        way = self._reached(design, self._nearest(design), MOST_HALVINGS, progress)
+        way = self._reached(design, self._nearest(design), halvings, progress)
         found = self._judged(way)
         anchor, *others = self._solved
         self._solved = [anchor, *[*others, *way.solved][-MOST_STATES:]]

@@ -30,11 +30,9 @@ class Asset:
 
 def assets() -> Mapping[str, Asset]:
     """The page's own files below ``page/``, the viewer and the style that all pages share."""
-    from bellows_design.web.style import page_style
-
     own = dict(_below(files("bellows_design.studio") / "page", "page/"))
     shared = dict(_below(files("bellows_design.web") / "assets", ""))
-    return own | shared | {"style.css": Asset(page_style().encode(), KINDS[".css"])}
+    return own | shared | {"style.css": shared["page.css"]}
 
 
 def _below(folder: Traversable, prefix: str) -> Iterator[tuple[str, Asset]]:

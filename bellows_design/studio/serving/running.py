@@ -61,8 +61,8 @@ async def _serve(options: Options, listener: socket.socket, store: Path, told: T
     lanes = Lanes(store, options.output.absolute())
     studio = Studio(guard, lanes, {"text": options.design.to_toml()})
     runner = web.AppRunner(application(studio), access_log=None, handle_signals=False)
-    lanes.start()
     try:
+        lanes.start()
         await runner.setup()
         await web.SockSite(runner, listener).start()
         told(guard.url)

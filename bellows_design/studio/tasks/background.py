@@ -69,6 +69,7 @@ def _part(known: Known, values: Values, report: Report) -> None:
 
 def _refine(known: Known, values: Values, report: Report) -> None:
     """The ordinary evaluation, which ``bellows evaluate`` gives too."""
+    from bellows_design.deformed import deformed_surface
     from bellows_design.store.lookup import evaluated
     from bellows_design.studio.tasks.looks import deformed
     from solver.errors import SolverError
@@ -80,7 +81,7 @@ def _refine(known: Known, values: Values, report: Report) -> None:
     how = f"evaluated by itself on {len(found.meshes)} meshes"
     report("answer", **answer_of(design, found, REFINED, how, seconds, checked))
     try:
-        report.shown("deformed", deformed(found), state=REFINED)
+        report.shown("deformed", deformed(deformed_surface(found)), state=REFINED)
     except (BellowsError, SolverError) as error:
         report("failed", what="deformed", message=str(error))
 

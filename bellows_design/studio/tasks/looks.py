@@ -8,18 +8,14 @@ from bellows_design.web.packing import packed
 from bellows_design.web.scene import Field, Surface
 
 if TYPE_CHECKING:
-    from bellows_design.analysis.evaluation import Evaluation
+    from bellows_design.deformed import SurfaceFrames
     from bellows_design.geometry.tessellation import ClosedMesh
-    from bellows_design.neighbours.record import NeighbourEvaluation
 
 STRESS = "von Mises stress"
 
 
-def deformed(found: Evaluation | NeighbourEvaluation) -> bytes:
+def deformed(frames: SurfaceFrames) -> bytes:
     """The actuator at rest and at the pressure reached, coloured by its stress."""
-    from bellows_design.deformed import deformed_surface
-
-    frames = deformed_surface(found)
     labels = tuple(f"{pressure:.4g} MPa" for pressure in frames.pressures_mpa)
     stress = Field(STRESS, "MPa", frames.von_mises)
     surface = Surface("actuator", frames.triangles, frames.positions, (stress,), labels)

@@ -10,19 +10,23 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from bellows_design.analysis.models import UNIT_CELL
+from bellows_design.deformed import deformed_surface
 from bellows_design.design.design import Design
 from bellows_design.errors import BellowsError
 from bellows_design.studio.choices.changed import changed, design_of_text
 from bellows_design.studio.tasks.answers import PREVIEW, REFINED, answer_of
+from bellows_design.studio.tasks.coarse import coarse
 from bellows_design.studio.tasks.continuation import Anchors
+from bellows_design.studio.tasks.looks import deformed
 from bellows_design.studio.tasks.places import kept_evaluation, store_at
 from bellows_design.studio.tasks.reporting import Report
+from solver.errors import SolverError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from bellows_design.analysis.evaluation import Evaluation
-    from bellows_design.neighbours.record import NeighbourEvaluation
+    from bellows_design.analysis.evaluation import Evaluation, LoadedState
+    from bellows_design.deformed import SurfaceFrames
     from solver import Mesh
 
     Values = dict[str, Any]
@@ -44,23 +48,26 @@ def _preview(anchors: Anchors, values: Values, report: Report) -> None:
     began = time.perf_counter()
     kept = kept_evaluation(store_at(values), design)
     if kept is not None:
-        answer = answer_of(design, kept, REFINED, "kept from before", time.perf_counter() - began)
-        report("answer", **answer)
-        _look(kept, REFINED, report)
+        _answer(design, kept, REFINED, "kept from before", began, report)
+        _look(lambda: deformed_surface(kept), REFINED, report)
         _take(anchors, kept, report)
         return
-    found = anchors.continued(design, report) or _coarse(anchors, design, report)
-    seconds = time.perf_counter() - began
-    report("answer", **answer_of(design, found.state, PREVIEW, found.how, seconds))
-    _look(found.state, PREVIEW, report)
+    found = anchors.continued(design, report)
+    if found is not None:
+        state, near = found.state, found.near
+        _answer(design, state, PREVIEW, found.how, began, report)
+        _look(lambda: near.surface(state), PREVIEW, report)
+        return
+    first = coarse(anchors, design, report)
+    _answer(design, first.state, PREVIEW, first.how, began, report)
+    _send_cell(design, first.mesh, report)
+    _look(lambda: deformed_surface(first.state), PREVIEW, report)
 
 
-def _coarse(anchors: Anchors, design: Design, report: Report) -> Any:
-    from bellows_design.studio.tasks.coarse import coarse
-
-    found = coarse(anchors, design, report)
-    _send_cell(design, found.mesh, report)
-    return found
+def _answer(
+    design: Design, found: LoadedState, state: str, how: str, began: float, report: Report
+) -> None:
+    report("answer", **answer_of(design, found, state, how, time.perf_counter() - began))
 
 
 def _anchor(anchors: Anchors, values: Values, report: Report) -> None:
@@ -77,13 +84,10 @@ def _take(anchors: Anchors, found: Evaluation, report: Report) -> None:
     anchors.add(found, report)
 
 
-def _look(found: Evaluation | NeighbourEvaluation, state: str, report: Report) -> None:
+def _look(surface: Callable[[], SurfaceFrames], state: str, report: Report) -> None:
     """The deformed finger; the figures stand also without it."""
-    from bellows_design.studio.tasks.looks import deformed
-    from solver.errors import SolverError
-
     try:
-        report.shown("deformed", deformed(found), state=state)
+        report.shown("deformed", deformed(surface()), state=state)
     except (BellowsError, SolverError) as error:
         report("failed", what="deformed", message=str(error))
 

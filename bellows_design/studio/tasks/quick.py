@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from bellows_design.design.design import Design
+    from bellows_design.materials.material import Material
     from bellows_design.studio.display.morphed import Cells
 
     Values = dict[str, Any]
@@ -76,7 +77,14 @@ def _start(design: Design) -> Values:
 def _described(names: tuple[str, ...]) -> list[dict[str, str]]:
     from bellows_design.materials.library import load_material
 
-    return [{"name": name, "description": load_material(name).description} for name in names]
+    return [{"name": name, "description": _described_as(load_material(name))} for name in names]
+
+
+def _described_as(material: Material) -> str:
+    """A material's law, its stiffness when strained little, and where it yields."""
+    modulus = material.hyperelastic().shear_modulus
+    yields = f"yields at {material.yield_strength:g} MPa"
+    return f"{material.model}, shear modulus {modulus:.3g} MPa, {yields}"
 
 
 def _change(cells: Cells, values: Values, report: Report) -> None:
