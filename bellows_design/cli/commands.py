@@ -66,6 +66,7 @@ from bellows_design.cli.options import (
     YieldStrength,
 )
 from bellows_design.cli.studies.optimize_command import optimize
+from bellows_design.cli.studio import studio
 from bellows_design.cli.study import study
 from bellows_design.cli.templates import Kind
 from bellows_design.materials.laws import BEST
@@ -81,6 +82,7 @@ app.add_typer(study, name="study")
 app.command()(optimize)
 app.command()(force)
 app.command()(compare)
+app.command()(studio)
 
 
 @app.callback(invoke_without_command=True)

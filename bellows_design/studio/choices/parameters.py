@@ -153,9 +153,7 @@ def _step(unit: str, value: float) -> float:
     return next(step for least, step in STEPS if value >= least)
 
 
-def _range(
-    unit: str, value: float, least: float, most: float, step: float
-) -> tuple[float, float]:
+def _range(unit: str, value: float, least: float, most: float, step: float) -> tuple[float, float]:
     """Around the value, in whole steps from it, within the bounds."""
     span = max(abs(value) * SPAN, LEAST_SPAN / 2 if unit == "mm" else 0.0)
     reach = max(1, round(span / step)) * step

@@ -41,7 +41,7 @@ def joined(shapes: Iterator[Shape] | list[Shape]) -> Shape:
 def compacted(shape: Shape) -> Shape:
     """Without the points that no triangle has."""
     used, numbers = np.unique(shape.triangles, return_inverse=True)
-    return Shape(shape.points[used], numbers.reshape(shape.triangles.shape))
+    return Shape(shape.points[used], numbers.reshape(shape.triangles.shape).astype(np.int32))
 
 
 def triangles_of(mesh: Mesh) -> Integers:
@@ -55,7 +55,7 @@ def chained(cell: Shape, design: Design) -> Shape:
     whole = joined([cell, _mirrored(cell, 1)])
     bubble = joined([whole, _mirrored(whole, 0)])
     middles = design.bellows.bubble_middles
-    bubbles = [Shape(bubble.points + [x, 0.0, 0.0], bubble.triangles) for x in middles]
+    bubbles = [Shape(bubble.points + np.array([x, 0.0, 0.0]), bubble.triangles) for x in middles]
     return joined([*bubbles, *_ends(design)])
 
 

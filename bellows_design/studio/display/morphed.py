@@ -39,7 +39,7 @@ class MovedCell:
         return MovedCell(design, Morpher.of(design, MODEL, mesh), triangles_of(mesh))
 
     def fits(self, design: Design) -> bool:
-        """Whether the cell of a design has the same faces; the number of bubbles does not matter."""
+        """Whether a design's cell has the same faces, however many bubbles there are."""
         return not same_topology(self.design, self._counted(design), MODEL)
 
     def shape_of(self, design: Design) -> Shape:

@@ -11,7 +11,7 @@ from bellows_design.errors import BellowsError
 from bellows_design.studio.choices.changed import changed, design_of_text
 from bellows_design.studio.tasks.answers import REFINED, answer_of
 from bellows_design.studio.tasks.places import store_at
-from bellows_design.studio.tasks.reporting import Report
+from bellows_design.studio.workers.reporting import Report
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from bellows_design.design.overrides import renamed_if_changed
 from bellows_design.studio.choices.changed import changed, design_of_text
 from bellows_design.studio.tasks.places import store_at
-from bellows_design.studio.tasks.reporting import Report
+from bellows_design.studio.workers.reporting import Report
 
 if TYPE_CHECKING:
     Values = dict[str, Any]

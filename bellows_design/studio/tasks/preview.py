@@ -14,12 +14,12 @@ from bellows_design.deformed import deformed_surface
 from bellows_design.design.design import Design
 from bellows_design.errors import BellowsError
 from bellows_design.studio.choices.changed import changed, design_of_text
+from bellows_design.studio.previews.coarse import coarse
+from bellows_design.studio.previews.continuation import Anchors
 from bellows_design.studio.tasks.answers import PREVIEW, REFINED, answer_of
-from bellows_design.studio.tasks.coarse import coarse
-from bellows_design.studio.tasks.continuation import Anchors
 from bellows_design.studio.tasks.looks import deformed
 from bellows_design.studio.tasks.places import kept_evaluation, store_at
-from bellows_design.studio.tasks.reporting import Report
+from bellows_design.studio.workers.reporting import Report
 from solver.errors import SolverError
 
 if TYPE_CHECKING:

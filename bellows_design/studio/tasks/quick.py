@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from bellows_design.errors import BellowsError
 from bellows_design.studio.choices.changed import changed, design_of_text, opened_text, problems
 from bellows_design.studio.choices.parameters import current_values, sliders
-from bellows_design.studio.tasks.reporting import Report
+from bellows_design.studio.workers.reporting import Report
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -146,7 +146,7 @@ def _take_cell(cells: Cells, values: Values, arrays: Values) -> None:
 
 def _toml(values: Values, _: Values, report: Report) -> None:
     """The design as a file."""
-    from bellows_design.studio.tasks.saving import toml_text
+    from bellows_design.studio.choices.saving import toml_text
 
     design = changed(design_of_text(values["base"]), values["values"])
     report("toml", name=design.name, text=toml_text(design), digest=design.digest)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from bellows_design.studio.choices.changed import changed, design_of_text
 from bellows_design.studio.tasks.places import store_at
-from bellows_design.studio.tasks.reporting import Report
+from bellows_design.studio.workers.reporting import Report
 
 if TYPE_CHECKING:
     from bellows_design.force.result import ForceCurve
@@ -22,7 +22,7 @@ def scene(values: Values, _: Values, report: Report) -> None:
     """Solve the scene that the page describes."""
     from bellows_design.design.scenes.scene import check_fits, scene_of
     from bellows_design.force.curve import force_curve
-    from bellows_design.studio.tasks.scene_picture import scene_picture
+    from bellows_design.studio.display.scene_picture import scene_picture
 
     design = changed(design_of_text(values["base"]), values["values"])
     around = scene_of({"kind": values["scene"], **values["keys"]}, "the scene")

@@ -35,7 +35,7 @@ class Handle:
     """
 
     def __init__(self, kind: str, heard: Heard) -> None:
-        self._errors = tempfile.TemporaryFile()
+        self._errors = tempfile.TemporaryFile()  # noqa: SIM115
         self._process = _launched(kind, self._errors.fileno())
         self._requests: SimpleQueue[Message | None] = SimpleQueue()
         for work in (self._write, lambda: self._listen(heard)):

@@ -17,7 +17,7 @@ from io import FileIO
 from queue import SimpleQueue
 from typing import Any
 
-from bellows_design.studio.tasks.reporting import Arrays, Cancelled, Report, Send
+from bellows_design.studio.workers.reporting import Arrays, Cancelled, Report, Send
 from solver.meshing.messages import Message, receive, send
 
 KINDS = {

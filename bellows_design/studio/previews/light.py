@@ -14,7 +14,7 @@ from bellows_design.design.design import Design
 from bellows_design.neighbours.bubbles import counts_alike, of_count, with_bubbles
 from bellows_design.neighbours.carried import Carried
 from bellows_design.neighbours.neighbourhood import Neighbourhood
-from bellows_design.studio.tasks.reporting import Report
+from bellows_design.studio.workers.reporting import Report
 
 if TYPE_CHECKING:
     from bellows_design.analysis.evaluation import Evaluation

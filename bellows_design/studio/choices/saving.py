@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import re
 
+from pydantic import BaseModel
+
 from bellows_design.design.design import Design
 
 HEADER = (
@@ -16,7 +18,7 @@ _KEY = re.compile(r"^(\w+) = ")
 
 def toml_text(design: Design) -> str:
     """The design as TOML: every key with its meaning and unit; it loads to the same digest."""
-    lines, path = [HEADER], ()
+    lines, path = [HEADER], tuple[str, ...]()
     for line in design.to_toml().splitlines():
         if line.startswith("["):
             path = tuple(line.strip("[]").split("."))
@@ -35,7 +37,7 @@ def _about(path: tuple[str, ...]) -> str:
     """What a key means, and its unit."""
     from bellows_design.validation.sentences import nested_model
 
-    model = Design
+    model: type[BaseModel] = Design
     for name in path[:-1]:
         inner = model.model_fields.get(name)
         found = None if inner is None else nested_model(inner)

@@ -65,7 +65,9 @@ def _surroundings(found: ForceCurve, left: float, width: float, line: float) -> 
         yield _rectangle(left, -scene.distance, width, 2.0, AROUND)
     if isinstance(scene, Grip):
         yield _object(scene)
-        yield _path([(left, -scene.distance), (left + width, -scene.distance)], REST, line / 2, "1 2")
+        yield _path(
+            [(left, -scene.distance), (left + width, -scene.distance)], REST, line / 2, "1 2"
+        )
     yield _path([(0.0, 0.0), (length, 0.0)], REST, line, "2 2")
 
 
@@ -73,10 +75,11 @@ def _object(scene: Grip) -> str:
     half = scene.size / 2
     if scene.object == "box":
         height = scene.size if scene.height is None else scene.height
-        return _rectangle(scene.place - height / 2, half - scene.distance, height, scene.size, AROUND)
+        return _rectangle(
+            scene.place - height / 2, half - scene.distance, height, scene.size, AROUND
+        )
     return (
-        f'<circle cx="{scene.place:.3f}" cy="{scene.distance:.3f}" r="{half:.3f}" '
-        f'fill="{AROUND}"/>'
+        f'<circle cx="{scene.place:.3f}" cy="{scene.distance:.3f}" r="{half:.3f}" fill="{AROUND}"/>'
     )
 
 

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 from bellows_design.design.design import Design
 from bellows_design.errors import BellowsError
 from bellows_design.neighbours.distance import distance
-from bellows_design.studio.tasks.light import FAR, LightNeighbourhood
-from bellows_design.studio.tasks.reporting import Report
+from bellows_design.studio.previews.light import FAR, LightNeighbourhood
+from bellows_design.studio.workers.reporting import Report
 from solver.errors import SolverError
 
 if TYPE_CHECKING:

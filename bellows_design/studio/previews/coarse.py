@@ -18,8 +18,8 @@ from bellows_design.budget import Budget
 from bellows_design.design.design import Design
 from bellows_design.errors import UnreachedError
 from bellows_design.neighbours.carried import Carried
-from bellows_design.studio.tasks.continuation import Anchors
-from bellows_design.studio.tasks.reporting import Report
+from bellows_design.studio.previews.continuation import Anchors
+from bellows_design.studio.workers.reporting import Report
 
 if TYPE_CHECKING:
     from bellows_design.analysis.evaluation import Evaluation
@@ -51,7 +51,9 @@ def coarse(anchors: Anchors, design: Design, report: Report) -> Coarse:
         raise UnreachedError(f"no preview: {why}; the evaluation follows")
     computation = refined(begun(design, UNIT_CELL, why, (), report, BUDGET), report)
     if not computation.converged:
-        raise UnreachedError(f"no preview: {computation.message.rstrip('.')}; the evaluation follows")
+        raise UnreachedError(
+            f"no preview: {computation.message.rstrip('.')}; the evaluation follows"
+        )
     nearest = anchors.nearest(design)
     found = evaluation_of(computation)
     mesh = computation.finest.problem.mesh
