@@ -366,7 +366,7 @@ def test_all_controls_are_reached_and_named_for_the_keyboard(page: Any) -> None:
                return [at.id, at.ariaLabel || at.labels?.[0]?.textContent || at.textContent]; }"""
         ))
     identifiers = {identifier for identifier, _ in reached}
-    assert {"open", "save", "run", "help", "p-bubble_width-range", "p-load-pressure-field",
+    assert {"open", "save", "run", "show-help", "p-bubble_width-range", "p-load-pressure-field",
             "choice-material", "mode-pressure", "blend", "indent-on"} <= identifiers  # fmt: skip
     assert [identifier for identifier, name in reached if identifier and not name.strip()] == []
 
