@@ -18,7 +18,7 @@ export const VIEWS = {
 };
 
 export class Camera {
-  constructor(canvas, changed) {
+  constructor(canvas, changed, taken) {
     this.camera = new OrthographicCamera(-1, 1, 1, -1, -1000, 1000);
     this.camera.up.set(0, 0, 1);
     this.width = this.height = 1;
@@ -32,6 +32,7 @@ export class Camera {
     this.orbit.minZoom = 0.15;
     this.orbit.maxZoom = 60;
     this.orbit.addEventListener("change", changed);
+    this.orbit.addEventListener("start", taken);
     canvas.style.touchAction = "pan-y"; // a finger that moves up or down scrolls the page
   }
 

@@ -37,6 +37,7 @@ export class Viewer extends EventTarget {
     this.frame = 0;
     this.field = null;
     this.renders = 0;
+    this.touched = false; // whether the reader has turned, moved or zoomed the view
     this.section = new Section();
     this.buildPage();
     this.startGraphics();
@@ -92,10 +93,11 @@ export class Viewer extends EventTarget {
     this.renderer.outputColorSpace = LinearSRGBColorSpace; // the shaders' colours are as displayed
     this.renderer.setClearColor(0, 0);
     this.scene = new Scene();
-    this.camera = new Camera(this.canvas, () => {
+    const changed = () => {
       this.invalidate();
       this.tell("view");
-    });
+    };
+    this.camera = new Camera(this.canvas, changed, () => (this.touched = true));
     this.map = { value: null };
     this.setMap(this.options.map);
     this.canvas.addEventListener("webglcontextlost", (event) => this.onLost(event));
