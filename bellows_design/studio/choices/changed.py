@@ -23,6 +23,17 @@ NAMED = ("material", "printer")
 """Keys that may be names of a library or tables, but no files: the page reads none."""
 
 _WORDS = re.compile(r"[A-Za-z_][A-Za-z0-9_.]*")
+DESCRIBED = {
+    "chamber's length": "chamber_length",
+    "chamber's width": "bubble_width",
+    "chamber's height": "bubble_height",
+    "bubble's length": "chamber_length",
+    "bubble's width": "bubble_width",
+    "bubble's height": "bubble_height",
+    "unknown material": "material",
+}
+"""Words of sentences, and the parameters that they are about."""
+
 _STATED = re.compile(r" (?:= |is |has |names |cannot )|:")
 """What follows a key of one plain word, which may be a word of the sentence as well."""
 
@@ -74,9 +85,14 @@ def _problem(sentence: str, moved: frozenset[str]) -> dict[str, Any]:
 
 
 def _named(sentence: str) -> Iterator[str]:
-    """The keys that a sentence names, in its order."""
+    """The keys that a sentence names, in its order; then those behind what it describes."""
     if sentence.startswith("unknown key"):
         return
+    yield from _spelled(sentence)
+    yield from (name for words, name in DESCRIBED.items() if words in sentence)
+
+
+def _spelled(sentence: str) -> Iterator[str]:
     known = set(known_keys()) - {"name", "description"}
     for found in _WORDS.finditer(sentence):
         name = found[0].rstrip(".").removeprefix("bellows.")

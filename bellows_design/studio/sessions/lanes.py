@@ -14,6 +14,8 @@ SERVER = 0
 
 MOST_REMEMBERED = 4
 
+TASKS = "bellows_design.studio.tasks"
+
 
 @dataclass
 class Lanes:
@@ -25,9 +27,9 @@ class Lanes:
 
     store: Path
     output: Path
-    quick: Lane = field(default_factory=lambda: Lane("quick"))
-    preview: Lane = field(default_factory=lambda: Lane("preview"))
-    background: Lane = field(default_factory=lambda: Lane("background", spare=True))
+    quick: Lane = field(default_factory=lambda: Lane(f"{TASKS}.quick"))
+    preview: Lane = field(default_factory=lambda: Lane(f"{TASKS}.preview"))
+    background: Lane = field(default_factory=lambda: Lane(f"{TASKS}.background", spare=True))
     cells: list[Callable[[], Job]] = field(default_factory=list)
     anchors: list[Callable[[], Job]] = field(default_factory=list)
 

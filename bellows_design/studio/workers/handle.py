@@ -28,15 +28,16 @@ Heard = Callable[[Message | None], None]
 
 
 class Handle:
-    """A running process of one kind; see ``workers.main``.
+    """A running process; see ``workers.main``.
 
     It has a session of its own, so that Ctrl-C in the terminal meets the server alone, and ends by
     itself once the server is gone, however that ends.
     """
 
-    def __init__(self, kind: str, heard: Heard) -> None:
+    def __init__(self, tasks: str, heard: Heard) -> None:
+        """``tasks``: the module of what it can do."""
         self._errors = tempfile.TemporaryFile()  # noqa: SIM115
-        self._process = _launched(kind, self._errors.fileno())
+        self._process = _launched(tasks, self._errors.fileno())
         self._requests: SimpleQueue[Message | None] = SimpleQueue()
         for work in (self._write, lambda: self._listen(heard)):
             threading.Thread(target=work, daemon=True).start()
@@ -94,11 +95,11 @@ class Handle:
         heard(None)
 
 
-def _launched(kind: str, errors: int) -> subprocess.Popen[bytes]:
+def _launched(tasks: str, errors: int) -> subprocess.Popen[bytes]:
     """With the module search path of this process; -P: nothing from the current folder."""
     places = os.pathsep.join(os.path.abspath(place) for place in sys.path if place)
     return subprocess.Popen(
-        [sys.executable, "-P", "-m", MODULE, kind],
+        [sys.executable, "-P", "-m", MODULE, tasks],
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         stderr=errors,

@@ -60,11 +60,11 @@ class Job:
 
 
 class Lane:
-    """The process of one kind, and the jobs for it. All methods are called in the event loop."""
+    """A process, and the jobs for it. All methods are called in the event loop."""
 
-    def __init__(self, kind: str, spare: bool = False) -> None:
-        """``spare``: keep a second process ready, once the first has done something."""
-        self._kind, self._wants_spare = kind, spare
+    def __init__(self, tasks: str, spare: bool = False) -> None:
+        """``tasks``: the module of what the process can do; ``spare``: keep a second one ready."""
+        self._tasks, self._wants_spare = tasks, spare
         self._process: Handle | None = None
         self._spare: Handle | None = None
         self._waiting: list[Job] = []
@@ -163,7 +163,7 @@ class Lane:
             if not loop.is_closed():
                 loop.call_soon_threadsafe(self._heard, process, message)
 
-        process = Handle(self._kind, heard)
+        process = Handle(self._tasks, heard)
         return process
 
     def _heard(self, process: Handle, message: Message | None) -> None:

@@ -1,4 +1,6 @@
-"""A process that computes for the studio: ``python -m bellows_design.studio.workers.main KIND``.
+"""A process that computes for the studio: ``python -m bellows_design.studio.workers.main MODULE``.
+
+MODULE has a function ``tasks()``: names -> functions of values, arrays and a report.
 
 Jobs come through stdin, what they report goes to stdout, both as ``solver.meshing.messages``. A
 second thread reads, so that a job can be told to stop while it runs. Libraries in C that print to
@@ -19,13 +21,6 @@ from typing import Any
 
 from bellows_design.studio.workers.reporting import Arrays, Cancelled, Report, Send
 from solver.meshing.messages import Message, receive, send
-
-KINDS = {
-    "quick": "bellows_design.studio.tasks.quick",
-    "preview": "bellows_design.studio.tasks.preview",
-    "background": "bellows_design.studio.tasks.background",
-}
-"""Modules, each with ``tasks()``: names -> functions of values, arrays and a report."""
 
 Task = Callable[[dict[str, Any], dict[str, Any], Report], None]
 
@@ -65,7 +60,7 @@ def main() -> None:
     os.dup2(2, 1)
     sys.stdout = sys.stderr
     desk = Desk(requests)
-    tasks: dict[str, Task] = import_module(KINDS[sys.argv[1]]).tasks()
+    tasks: dict[str, Task] = import_module(sys.argv[1]).tasks()
     while True:
         message = desk.jobs.get()
         number = message.values["job"]

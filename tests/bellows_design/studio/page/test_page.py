@@ -332,7 +332,9 @@ def test_scene_is_asked_for_with_its_keys_and_shown_as_a_picture(
     page.locator("#scene-figures", has_text="1.23 N ± 4 %").wait_for()
     asked = studio.last("scene")
     assert asked["scene"] == "blocked" and asked["support"] == "wall" and asked["distance"] == 2.5
-    width = page.locator("#scene-picture").evaluate("image => image.decode().then(() => image.naturalWidth)")
+    width = page.locator("#scene-picture").evaluate(
+        "image => image.decode().then(() => image.naturalWidth)"
+    )
     assert width > 0
 
 
@@ -349,7 +351,9 @@ def test_text_of_others_stays_text(page: Any, studio: PretendedStudio) -> None:
     markup = "<img src=x onerror=\"document.title='taken'\">"
     light = {"rule": markup, "verdict": "fail", "message": markup}
     studio.say("lights", revision=revision, source="declared", lights=[light])
-    studio.say("problems", revision=revision, problems=[{"parameter": "bubble_width", "message": markup}])
+    studio.say(
+        "problems", revision=revision, problems=[{"parameter": "bubble_width", "message": markup}]
+    )
     page.locator("#lights", has_text="onerror").wait_for()
     assert page.locator("#lights img, #sliders img").count() == 0
     assert page.title() != "taken"
@@ -360,11 +364,13 @@ def test_all_controls_are_reached_and_named_for_the_keyboard(page: Any) -> None:
     page.locator("body").focus()
     for _ in range(120):
         page.keyboard.press("Tab")
-        reached.append(page.evaluate(
-            """() => { let at = document.activeElement;
+        reached.append(
+            page.evaluate(
+                """() => { let at = document.activeElement;
                while (at.shadowRoot?.activeElement) at = at.shadowRoot.activeElement;
                return [at.id, at.ariaLabel || at.labels?.[0]?.textContent || at.textContent]; }"""
-        ))
+            )
+        )
     identifiers = {identifier for identifier, _ in reached}
     assert {"open", "save", "run", "show-help", "p-bubble_width-range", "p-load-pressure-field",
             "choice-material", "mode-pressure", "blend", "indent-on"} <= identifiers  # fmt: skip
