@@ -1,6 +1,6 @@
 """From a slider's rest to the new angle, in the real page of the real studio.
 
-    python tests/benchmarks/studio_moves.py [--moves 100] [--all] [--design prototype_1] [--output F]
+    python tests/benchmarks/studio_moves.py [--moves 100] [--all] [--design D] [--output F]
 
 Random moves from a fixed seed, of all kinds of sliders, in a headless Chromium that draws the 3D
 view in software on the same processors: seven of ten by up to a tenth of the slider's range, two by
@@ -40,6 +40,7 @@ from studio_in_browser import (  # noqa: E402
     saved,
     sliders,
     wait_for_answer,
+    wait_for_any_answer,
 )
 
 from bellows_design.machine import machine  # noqa: E402
@@ -133,7 +134,7 @@ def _give_all_numbers(page: Any) -> None:
     if not page.locator("#indent-on").is_checked():
         page.locator("#indent-on").check()
     page.wait_for_timeout(300)
-    wait_for_answer(page)
+    wait_for_any_answer(page)
 
 
 def _target(slider: dict[str, float], chance: random.Random) -> float:
@@ -141,7 +142,9 @@ def _target(slider: dict[str, float], chance: random.Random) -> float:
     reach = next(share for up_to, share in REACHES if chance.random() <= up_to or up_to == 1)
     span = slider["high"] - slider["low"]
     wanted = slider["value"] + chance.uniform(-reach, reach) * span
-    steps = round((min(slider["high"], max(slider["low"], wanted)) - slider["value"]) / slider["step"])
+    steps = round(
+        (min(slider["high"], max(slider["low"], wanted)) - slider["value"]) / slider["step"]
+    )
     if steps == 0:
         steps = 1 if slider["value"] + slider["step"] <= slider["high"] else -1
     return float(round(slider["value"] + steps * slider["step"], 6))
@@ -156,7 +159,7 @@ def _move(page: Any, name: str, target: float) -> Move:
     how = found["problem"] if found["state"] == "invalid" else found["how"]
     if not answered:
         page.locator("#undo").click()
-        wait_for_answer(page, "refined")
+        wait_for_any_answer(page)
     return Move(
         name, float(found["value"].replace("−", "-")), found["seconds"], found["state"],
         found["angle_deg"] if answered else None, _error(page) if answered else None, how, toml,
@@ -215,9 +218,15 @@ def table(moves: Sequence[Move], checks: Sequence[Check]) -> str:
         ("moves", f"{found['moves']}"),
         ("what came", ", ".join(f"{count} {state}" for state, count in found["states"].items())),
         ("rest to angle, median", f"{found['median_seconds']:.2f} s (aim {AIMS[0]:g} s)"),
-        ("rest to angle, nine in ten", f"{found['ninety_percent_seconds']:.2f} s (aim {AIMS[1]:g} s)"),
+        (
+            "rest to angle, nine in ten",
+            f"{found['ninety_percent_seconds']:.2f} s (aim {AIMS[1]:g} s)",
+        ),
         ("longest", f"{found['longest_seconds']:.2f} s"),
-        ("to the explanation of what is invalid, median", f"{median(explained):.2f} s" if explained else "–"),
+        (
+            "to the explanation of what is invalid, median",
+            f"{median(explained):.2f} s" if explained else "–",
+        ),
         ("angles equal to `bellows evaluate` within both estimates", f"{agree} of {len(checks)}"),
         ("load of the machine", f"{found['load']:.1f}"),
     ]
@@ -239,8 +248,13 @@ def main(words: Sequence[str] = ()) -> None:
     asked = arguments(words)
     with tempfile.TemporaryDirectory() as folder:
         store = {"BELLOWS_CACHE": str(Path(folder) / "store")}
-        with running_studio(asked.design, Path(folder) / "exports", store) as url, running_browser() as browser:
-            page = browser.new_page(reduced_motion="reduce", viewport={"width": 1280, "height": 860})
+        with (
+            running_studio(asked.design, Path(folder) / "exports", store) as url,
+            running_browser() as browser,
+        ):
+            page = browser.new_page(
+                reduced_motion="reduce", viewport={"width": 1280, "height": 860}
+            )
             page.goto(url)
             wait_for_answer(page)
             moves = []
@@ -256,7 +270,9 @@ def main(words: Sequence[str] = ()) -> None:
         "moves": [asdict(move) for move in moves],
         "checks": [asdict(check) | {"agrees": check.agrees} for check in checks],
     }  # fmt: skip
-    asked.output.write_text(json.dumps(content, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+    asked.output.write_text(
+        json.dumps(content, indent=1, ensure_ascii=False) + "\n", encoding="utf-8"
+    )
 
 
 if __name__ == "__main__":

@@ -25,12 +25,15 @@ async ({name, values, key}) => {
   const figures = document.getElementById("figures");
   const input = document.querySelector(`[data-parameter="${name}"] input[type=range]`);
   input.scrollIntoView({block: "center"});
+  const field = document.querySelector(`[data-parameter="${name}"] input[type=text]`);
+  let began = performance.now();
   for (const value of values) {
+    const before = field.value;
     input.value = value;
     input.dispatchEvent(new Event("input", {bubbles: true}));
+    if (field.value !== before) began = performance.now();
     await frame();
   }
-  const began = performance.now();
   const state = () => figures.dataset.state;
   const shown = () => ["preview", "refined", "invalid", "failed"].includes(state());
   const deadline = began + key.limit_ms;
@@ -41,7 +44,7 @@ async ({name, values, key}) => {
     seconds, state: shown() ? state() : "stuck",
     angle_deg: Number(angle.dataset.deg), shown: angle.textContent,
     revision: Number(angle.dataset.revision),
-    value: document.querySelector(`[data-parameter="${name}"] input[type=text]`).value,
+    value: field.value,
     problem: document.querySelector(`[data-parameter="${name}"] .problem`).textContent ||
              document.getElementById("problem-summary").textContent,
     how: document.getElementById("how").textContent,
@@ -80,6 +83,12 @@ def _address(process: subprocess.Popen[str]) -> str:
 def wait_for_answer(page: Any, state: str = "refined", milliseconds: int = FIRST_ANSWER_MS) -> None:
     """Wait until the figures are those of the design on the sliders."""
     page.locator(f"#figures[data-state={state}]").wait_for(timeout=milliseconds)
+
+
+def wait_for_any_answer(page: Any, milliseconds: int = FIRST_ANSWER_MS) -> None:
+    """Wait for a preview or a refined answer of the design on the sliders."""
+    answers = "#figures[data-state=preview], #figures[data-state=refined]"
+    page.locator(answers).wait_for(timeout=milliseconds)
 
 
 def moved(page: Any, name: str, values: list[float], limit_seconds: float) -> dict[str, Any]:

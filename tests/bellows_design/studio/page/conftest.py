@@ -9,7 +9,6 @@ import pytest
 from pretended_studio import PretendedStudio
 
 
-
 @pytest.fixture
 def studio() -> Iterator[PretendedStudio]:
     with PretendedStudio() as running:

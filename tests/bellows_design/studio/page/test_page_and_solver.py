@@ -50,7 +50,10 @@ class Heard:
 @contextmanager
 def studio_page(browser: Any, address: str, **context: Any) -> Iterator[tuple[Any, Heard]]:
     """The page with the refined answer of the design that was opened."""
-    with opened(browser, "about:blank", calm=True, accept_downloads=True, **context) as (page, seen):
+    with opened(browser, "about:blank", calm=True, accept_downloads=True, **context) as (
+        page,
+        seen,
+    ):
         heard = Heard(page)
         page.goto(address)
         wait_for_answer(page, milliseconds=LONG_MS)
