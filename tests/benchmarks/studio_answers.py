@@ -20,6 +20,7 @@ import random
 import sys
 import tempfile
 import time
+from contextlib import suppress
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from statistics import median, quantiles
@@ -263,10 +264,8 @@ def run(arguments: argparse.Namespace) -> dict[str, Any]:
 
     with tempfile.TemporaryDirectory() as folder:
         options = Options(load_design(arguments.design), browser=False, output=Path(folder))
-        try:
+        with suppress(KeyboardInterrupt):  # once the moves are over
             serve(options, told)
-        except KeyboardInterrupt:
-            pass
     check(moves, arguments.check)
     return {"summary": summary(moves, late), "moves": [asdict(move) for move in moves]}
 

@@ -10,7 +10,7 @@ from bellows_design.design.design import Design
 from bellows_design.errors import BellowsError
 from bellows_design.studio.choices.changed import changed, design_of_text
 from bellows_design.studio.tasks.answers import REFINED, answer_of
-from bellows_design.studio.tasks.places import store_at
+from bellows_design.studio.tasks.places import solving, store_at
 from bellows_design.studio.workers.reporting import Report
 
 if TYPE_CHECKING:
@@ -75,7 +75,8 @@ def _refine(known: Known, values: Values, report: Report) -> None:
     from solver.errors import SolverError
 
     design, began = changed(design_of_text(values["base"]), values["values"]), time.perf_counter()
-    found = evaluated(design, progress=report, store=store_at(values))
+    with solving(report):
+        found = evaluated(design, progress=report, store=store_at(values))
     known.keep(known.evaluations, design, found)
     checked, seconds = known.reports.get(design.digest), time.perf_counter() - began
     how = f"evaluated by itself on {len(found.meshes)} meshes"

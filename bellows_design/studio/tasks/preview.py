@@ -18,7 +18,7 @@ from bellows_design.studio.previews.coarse import coarse
 from bellows_design.studio.previews.continuation import Anchors
 from bellows_design.studio.tasks.answers import PREVIEW, REFINED, answer_of
 from bellows_design.studio.tasks.looks import deformed
-from bellows_design.studio.tasks.places import kept_evaluation, store_at
+from bellows_design.studio.tasks.places import kept_evaluation, solving, store_at
 from bellows_design.studio.workers.reporting import Report
 from solver.errors import SolverError
 
@@ -37,9 +37,14 @@ def tasks() -> dict[str, Task]:
     """By their names."""
     anchors = Anchors()
     return {
-        "preview": lambda values, _, report: _preview(anchors, values, report),
-        "anchor": lambda values, _, report: _anchor(anchors, values, report),
+        "preview": lambda values, _, report: _told(_preview, anchors, values, report),
+        "anchor": lambda values, _, report: _told(_anchor, anchors, values, report),
     }
+
+
+def _told(work: Callable[..., None], anchors: Anchors, values: Values, report: Report) -> None:
+    with solving(report):
+        work(anchors, values, report)
 
 
 def _preview(anchors: Anchors, values: Values, report: Report) -> None:
