@@ -66,7 +66,7 @@ from bellows_design.cli.options import (
     YieldStrength,
 )
 from bellows_design.cli.studies.optimize_command import optimize
-from bellows_design.cli.studio import studio
+from bellows_design.cli.studio.command import studio
 from bellows_design.cli.study import study
 from bellows_design.cli.templates import Kind
 from bellows_design.materials.laws import BEST

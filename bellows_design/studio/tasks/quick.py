@@ -94,10 +94,15 @@ def _change(cells: Cells, values: Values, report: Report) -> None:
         return
     from bellows_design.studio.display.declared import declared_lights
 
+    _show(cells, design, report)
     report("lights", source="declared", lights=declared_lights(design))
+
+
+def _show(cells: Cells, design: Design, report: Report) -> None:
+    """The shape, or that it follows."""
     shape = cells.shape_of(design)
     if shape is None:
-        report("shape_follows", why="the shape has other faces than before: it follows from CAD")
+        report("shape_follows", why="the shape has other faces than before: it follows")
         return
     from bellows_design.web.packing import packed
     from bellows_design.web.scene import Surface

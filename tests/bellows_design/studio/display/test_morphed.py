@@ -21,8 +21,9 @@ from bellows_design.studio.display.morphed import Cells, MovedCell
 from solver import Mesh
 
 BASE = load_design("prototype_2")
-CLOSE = 0.05
-"""mm: CAD triangles are within 0.02 mm, flat ones of a coarse mesh's curves a little farther."""
+CLOSE, FARTHEST = 0.02, 0.2
+"""mm. Points lie on the solid, whose triangles are within 0.02 mm of it; but mid-nodes that would
+fold an element of a coarse mesh stand back from fillets."""
 
 
 @cache
@@ -62,7 +63,8 @@ def test_points_of_the_shape_lie_on_the_cad_solid(values: dict[str, float]) -> N
     assert cell().fits(design)
     points = of_bubbles(design, cell().shape_of(design))
     _, distance, _ = trimesh.proximity.closest_point(solid(design), points[::17])
-    assert len(points) > 1000 and distance.max() < CLOSE
+    assert len(points) > 1000 and distance.max() < FARTHEST
+    assert np.quantile(distance, 0.9) < CLOSE
 
 
 def test_there_are_as_many_bubbles_as_the_design_has() -> None:

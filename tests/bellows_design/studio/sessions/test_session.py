@@ -1,4 +1,4 @@
-"""What a page is sent when it moves sliders, rests, opens designs; the processes compute nothing."""
+"""What a page is sent when it moves sliders, rests, opens designs; nothing is computed."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""``bellows studio``: a page on this machine to change a design in."""
+"""The command ``bellows studio`` and its options."""
 
 from __future__ import annotations
 
