@@ -23,7 +23,7 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from statistics import median, quantiles
@@ -57,6 +57,8 @@ STUCK = 60.0
 
 PAUSE = 1.0
 """s. Between two moves, as people look at what they did."""
+
+VIEWPORT = {"width": 1280, "height": 860}
 
 EVERY = 10
 AIMS = (1.0, 2.0)
@@ -243,36 +245,50 @@ def arguments(words: Sequence[str]) -> argparse.Namespace:
     return parser.parse_args(words)
 
 
-def main(words: Sequence[str] = ()) -> None:
-    """Walk, check, print, write."""
-    asked = arguments(words)
+def recorded(design: str, count: int) -> list[Move]:
+    """The moves of a studio and a browser of their own, told one by one."""
     with tempfile.TemporaryDirectory() as folder:
         store = {"BELLOWS_CACHE": str(Path(folder) / "store")}
-        with (
-            running_studio(asked.design, Path(folder) / "exports", store) as url,
-            running_browser() as browser,
-        ):
-            page = browser.new_page(
-                reduced_motion="reduce", viewport={"width": 1280, "height": 860}
-            )
+        exports = Path(folder) / "exports"
+        with running_studio(design, exports, store) as url, running_browser() as browser:
+            page = browser.new_page(reduced_motion="reduce", viewport=VIEWPORT)
             page.goto(url)
             wait_for_answer(page)
             moves = []
-            for move in walked(page, asked.moves):
+            for move in walked(page, count):
                 moves.append(move)
-                print(f"{len(moves):3d} {move.parameter} = {move.value:g}: {move.state} after "
-                      f"{move.seconds:.2f} s", file=sys.stderr, flush=True)  # fmt: skip
-    checks = list(checked(moves, 1 if asked.all else EVERY))
-    print(table(moves, checks))
-    content = {
-        "seed": SEED, "design": asked.design, "date": time.strftime("%Y-%m-%d"),
-        "machine": machine().to_dict(), "summary": summary(moves),
+                told = f"{len(moves)} {move.parameter} = {move.value:g}: {move.state}"
+                print(f"{told} after {move.seconds:.2f} s", file=sys.stderr, flush=True)
+    return moves
+
+
+def content(design: str, moves: Sequence[Move], checks: Sequence[Check]) -> dict[str, Any]:
+    """What is written as JSON."""
+    return {
+        "seed": SEED,
+        "design": design,
+        "date": time.strftime("%Y-%m-%d"),
+        "machine": machine().to_dict(),
+        "summary": summary(moves),
         "moves": [asdict(move) for move in moves],
         "checks": [asdict(check) | {"agrees": check.agrees} for check in checks],
-    }  # fmt: skip
-    asked.output.write_text(
-        json.dumps(content, indent=1, ensure_ascii=False) + "\n", encoding="utf-8"
-    )
+    }
+
+
+def write(file: Path, found: Mapping[str, Any]) -> None:
+    """As JSON, with a line for each number."""
+    text = json.dumps(found, indent=1, ensure_ascii=False, allow_nan=False)
+    file.write_text(text + "\n", encoding="utf-8")
+
+
+def main(words: Sequence[str] = ()) -> None:
+    """Walk, check, print, write."""
+    asked = arguments(words)
+    moves = recorded(asked.design, asked.moves)
+    write(asked.output, content(asked.design, moves, []))  # should a check be interrupted
+    checks = list(checked(moves, 1 if asked.all else EVERY))
+    print(table(moves, checks))
+    write(asked.output, content(asked.design, moves, checks))
 
 
 if __name__ == "__main__":
