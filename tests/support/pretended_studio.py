@@ -28,7 +28,10 @@ from bellows_design.web.style import page_style
 PAGE = Path(bellows_design.studio.__file__).parent / "page"
 WEB = PAGE.parents[1] / "web"
 
-POLICY = "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; connect-src 'self'"
+POLICY = (
+    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; "
+    "connect-src 'self'"
+)
 
 BOX = np.array([[x, y, z] for x in (0, 1) for y in (-0.5, 0.5) for z in (0, 1)], dtype=float)
 FACES = np.array(
@@ -273,9 +276,12 @@ class _Talk:
         await self.say("answer", **_answer(design, revision, "refined"))
 
     async def on_scene(self, message: Mapping[str, Any]) -> None:
-        svg = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 40 20"><path d="M2 10h36" stroke="#000"/></svg>'
+        line = '<path d="M2 10h36" stroke="#000"/>'
+        svg = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 40 20">{line}</svg>'
         figures = [{"label": "Force", "value": 1.234, "unit": "N", "error_percent": 4.0}]
-        await self.say("scene", revision=message["revision"], scene=message["scene"], figures=figures, svg=svg)
+        await self.say(
+            "scene", revision=message["revision"], scene=message["scene"], figures=figures, svg=svg
+        )
 
     async def on_run(self, message: Mapping[str, Any]) -> None:
         revision = message["revision"]
@@ -338,6 +344,6 @@ def _answer(design: Design, revision: int, state: str) -> dict[str, Any]:
         "max_von_mises_mpa": stress, "stress_error_percent": 5.0, "stress_limit_mpa": 4.0,
         "cavity_volume_mm3": 9000.0, "converged": True, "warnings": [], "seconds": 0.1,
         "verdict": "pass" if stress <= 4 else "fail",
-        "reasons": [] if stress <= 4 else [f"{stress:.3g} MPa of stress exceed the limit of 4 MPa."],
+        "reasons": [] if stress <= 4 else [f"{stress:.3g} MPa exceed the limit of 4 MPa."],
         "how": "made up for tests", "digest": design.digest,
     }  # fmt: skip

@@ -42,7 +42,7 @@ const saving = new Saving(session);
 const opening = new Opening(session);
 const showTab = bindTabs(byId("tabs"));
 bindDialogs();
-byId("help").addEventListener("click", () => byId("help-dialog").showModal());
+byId("show-help").addEventListener("click", () => byId("help-dialog").showModal());
 
 const view = newView();
 const controls = view && new ViewControls(view, session);

@@ -230,9 +230,9 @@ export class Session extends EventTarget {
     this.#connection.send({ type: "rest", revision: this.revision });
   }
 
-  #noteProblems({ problems, values }) {
+  #noteProblems({ problems, values, bubble_count: count }) {
     this.problems = problems;
-    this.#current = values ?? this.#current;
+    if (values) this.#current = withCount(values, count);
     if (problems.length) this.#setState("invalid");
   }
 
@@ -254,7 +254,8 @@ export class Session extends EventTarget {
   #take(start) {
     this.start = start;
     this.opened = openedValues(start);
-    this.#current = Object.fromEntries(start.parameters.map((each) => [each.name, each.value ?? null]));
+    const values = start.parameters.map((each) => [each.name, each.value ?? null]);
+    this.#current = withCount(Object.fromEntries(values), start.bubble_count);
     this.values = this.opened;
     this.#forget();
     this.#setState("computing");
@@ -296,4 +297,9 @@ export class Session extends EventTarget {
   #emit(type, detail = null) {
     this.dispatchEvent(new CustomEvent(type, { detail }));
   }
+}
+
+/** The design's numbers; how many bubbles fit is told beside them. */
+function withCount(values, count) {
+  return { ...values, number_of_bubbles: values.number_of_bubbles ?? count ?? null };
 }

@@ -48,7 +48,8 @@ export class SliderRow {
 
   #showBack(changed) {
     const { label, unit } = this.parameter;
-    this.back.hidden = !changed || this.#opened === undefined;
+    const known = this.#opened !== undefined && (this.#opened !== null || this.parameter.optional);
+    this.back.hidden = !changed || !known;
     const text = this.#opened === null ? "as before" : `${shown(this.#opened)} ${unit}`.trim();
     this.back.title = `Back to ${text}`;
     this.back.setAttribute("aria-label", `${label}: back to ${text}`);

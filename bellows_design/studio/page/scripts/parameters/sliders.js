@@ -27,6 +27,7 @@ export class Sliders {
   #choices = [];
   #indent = null;
   #optional = [];
+  #sensitivityRevision = -1;
 
   constructor(host, session) {
     this.#session = session;
@@ -113,14 +114,16 @@ export class Sliders {
     return this.#rows.has(name) || this.#choices.some((choice) => choice.name === name);
   }
 
-  #showSensitivities({ sensitivities }) {
+  #showSensitivities({ sensitivities, revision }) {
+    this.#sensitivityRevision = revision;
     const found = new Map(sensitivities.map((each) => [each.parameter, each]));
     for (const [name, row] of this.#rows) row.showSensitivity(found.get(name) ?? null);
-    this.#dimSensitivities(false);
+    this.#dimSensitivities();
   }
 
   /** Derivatives belong to the design they were computed for. */
-  #dimSensitivities(stale = ["moving", "computing", "invalid", "failed"].includes(this.#session.state)) {
+  #dimSensitivities() {
+    const stale = this.#sensitivityRevision !== this.#session.revision;
     this.#host.classList.toggle("stale-sensitivities", stale);
   }
 }

@@ -97,8 +97,7 @@ export class Figures {
     dataset.deg = String(answer.bending_angle_deg);
     dataset.revision = String(answer.revision);
     dataset.state = current ? answer.state : "old";
-    const prefix = current ? "" : "out of date: ";
-    for (const each of [this.angle, this.stress, this.air]) each.note(prefix);
+    for (const each of [this.angle, this.stress, this.air]) each.note(current ? "" : " – out of date");
   }
 
   #working({ what, fraction, message }) {
@@ -118,7 +117,7 @@ export class Figures {
 }
 
 function figure(id, label) {
-  const note = element("span", { class: "for-readers" });
+  const note = element("span", { class: "outdated" });
   const value = element("span", { class: "value", id }, "–");
   const unit = element("span", { class: "value-unit" });
   const error = element("span", { class: "margin" });
@@ -126,8 +125,8 @@ function figure(id, label) {
   const row = element(
     "div",
     { class: "reading", role: "group", "aria-label": label },
-    element("span", { class: "figure-label" }, label),
-    element("span", { class: "figure-value" }, note, value, unit, error),
+    element("span", { class: "figure-label" }, label, note),
+    element("span", { class: "figure-value" }, value, unit, error),
     compared,
   );
   return {
@@ -151,8 +150,9 @@ class StressBar {
   constructor() {
     this.fill = element("div", { class: "bar-fill" });
     this.band = element("div", { class: "bar-band" });
+    this.limit = element("div", { class: "bar-limit" });
     this.text = element("span", { class: "bar-text" });
-    this.track = element("div", { class: "bar-track", "aria-hidden": "true" }, this.fill, this.band, element("div", { class: "bar-limit" }));
+    this.track = element("div", { class: "bar-track", "aria-hidden": "true" }, this.fill, this.band, this.limit);
     this.element = element("div", { class: "stress-bar" }, this.track, this.text);
   }
 
@@ -160,8 +160,10 @@ class StressBar {
     this.element.hidden = !limit;
     if (!limit) return;
     const error = (stress * (percent ?? 0)) / 100;
-    const share = (value) => `${Math.max(0, Math.min(100, (80 * value) / limit))}%`;
+    const whole = Math.max(1.25 * limit, 1.08 * (stress + error));
+    const share = (value) => `${Math.max(0, (100 * value) / whole)}%`;
     this.fill.style.width = share(stress);
+    this.limit.style.left = share(limit);
     this.band.style.left = share(stress - error);
     this.band.style.width = `calc(${share(stress + error)} - ${share(stress - error)})`;
     this.element.dataset.level = stress + error <= limit ? "good" : stress <= limit ? "near" : "over";
@@ -176,7 +178,7 @@ function sentence({ how, converged, message }) {
 }
 
 function margin(value, percent, decimals) {
-  if (percent === null || percent === undefined) return "";
+  if (percent === null || percent === undefined) return " error not yet known";
   return ` ± ${fixed(Math.abs((value * percent) / 100), decimals)}`;
 }
 

@@ -60,12 +60,21 @@ export class Lights {
     setText(this.source, old ? "out of date" : SOURCES[this.#sets.has("measured")]);
   }
 
+  /** Reasons that stand among the rules below are told in one line. */
+  #withoutRules(reasons) {
+    const rules = new Set((this.#current()?.lights ?? []).map((light) => light.message));
+    const others = reasons.filter((reason) => !rules.has(reason));
+    const count = reasons.length - others.length;
+    if (!count) return reasons;
+    return [`It cannot be printed as it is: ${count} ${count === 1 ? "finding" : "findings"} below.`, ...others];
+  }
+
   #showVerdict() {
     const { answer, state, problems } = this.#session;
     const { level, text, reasons } = verdictOf(answer, state, problems);
     this.verdict.dataset.level = level;
     setText(this.verdict, text);
-    this.reasons.replaceChildren(...reasons.map((reason) => element("li", {}, reason)));
+    this.reasons.replaceChildren(...this.#withoutRules(reasons).map((reason) => element("li", {}, reason)));
   }
 }
 
