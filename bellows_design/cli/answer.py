@@ -19,6 +19,7 @@ import typer
 
 from bellows_design.cli.early_signals import ended_by
 from bellows_design.cli.interruption import ended_in_time, interruption_in, raising_signals
+from bellows_design.cli.layout.said import error_content, print_error, print_json, stated
 from bellows_design.errors import BellowsError, ClusterError, UnreachedError
 from bellows_design.files.errors import CannotWrite
 
@@ -71,12 +72,10 @@ def answer(work: Callable[[], Answer], as_json: bool) -> None:
         if os.environ.get(TRACEBACK):
             _print_traceback(error)
         sentence, status = ended_by(signals.received[0]) if signals.received else explained(error)
-        typer.echo(f"bellows: {sentence}", err=True)
-        if as_json:
-            _print_json({"error": sentence, "exit_status": status})
+        print_error(sentence, status, as_json)
         raise typer.Exit(status) from None
     if as_json:
-        _print_json(result.content)
+        print_json(stated(result.content))
     else:
         _print_text(result.text)
     if result.unwritten is not None:
@@ -193,7 +192,7 @@ def _leave(number: int, json_to: int | None) -> None:
         os.write(2, f"bellows: {sentence}\n".encode())
     with suppress(OSError):
         if json_to is not None:
-            content = {"error": sentence, "exit_status": status}
+            content = error_content(sentence, status)
             os.write(json_to, json.dumps(content, indent=2).encode() + b"\n")
     os._exit(status)
 
@@ -202,17 +201,6 @@ def _print_traceback(error: BaseException) -> None:
     import traceback
 
     typer.echo("".join(traceback.format_exception(error)), err=True)
-
-
-def _print_json(content: dict[str, Any]) -> None:
-    from bellows_design.files.json_files import json_text
-
-    text = json_text(content)
-    try:
-        text.encode(sys.stdout.encoding)
-    except UnicodeEncodeError:
-        text = json_text(content, only_ascii=True)
-    typer.echo(text, nl=False)
 
 
 def _print_text(lines: Sequence[RenderableType]) -> None:

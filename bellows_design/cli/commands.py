@@ -30,6 +30,9 @@ from bellows_design.cli.checking.options import (
 )
 from bellows_design.cli.comparing.command import compare
 from bellows_design.cli.force.command import force
+from bellows_design.cli.layout import panels
+from bellows_design.cli.layout.group import Commands
+from bellows_design.cli.layout.panels import examples
 from bellows_design.cli.options import (
     AcceptPoorFit,
     Accuracy,
@@ -72,15 +75,40 @@ from bellows_design.materials.laws import BEST
 
 app = typer.Typer(
     name="bellows",
+    cls=Commands,
     help="From the twelve numbers of a soft bellows actuator to an approved, printable STL.",
-    add_completion=False,
+    epilog=examples(
+        "bellows list",
+        "bellows init design my_finger.toml",
+        "bellows run my_finger.toml",
+        "bellows evaluate finger --set bubble_thickness=1.2 --pressure 0.02:0.1:0.02",
+    ),
     no_args_is_help=True,
     pretty_exceptions_enable=False,
 )
-app.add_typer(study, name="study")
-app.command()(optimize)
-app.command()(force)
-app.command()(compare)
+app.add_typer(study, name="study", rich_help_panel=panels.STUDY)
+app.command(
+    rich_help_panel=panels.STUDY,
+    epilog=examples(
+        "bellows optimize finger --minutes 30",
+        "bellows optimize finger --goal stress --angle 200 --bubbles 8-10 -o soft_finger",
+    ),
+)(optimize)
+app.command(
+    rich_help_panel=panels.COMPUTE,
+    epilog=examples(
+        "bellows force finger",
+        "bellows force finger --scene free --pressure 0.02:0.1:0.02",
+        "bellows force finger --by-distance --plot force.png",
+    ),
+)(force)
+app.command(
+    rich_help_panel=panels.COMPUTE,
+    epilog=examples(
+        "bellows compare finger print.csv --plot print.png",
+        "bellows compare finger print.csv --write-material my_print.toml",
+    ),
+)(compare)
 
 
 @app.callback(invoke_without_command=True)
@@ -98,13 +126,19 @@ def _root(
         raise typer.Exit(2)
 
 
-@app.command("list")
+@app.command("list", rich_help_panel=panels.START)
 def list_designs(as_json: AsJson = False) -> None:
     """Name the shipped designs."""
     answer(actions.list_designs, as_json)
 
 
-@app.command()
+@app.command(
+    rich_help_panel=panels.START,
+    epilog=examples(
+        "bellows init design my_finger.toml",
+        "bellows init printer my_printer.toml",
+    ),
+)
 def init(
     kind: Annotated[
         Kind, typer.Argument(metavar="KIND", help="design, printer, material or body.")
@@ -119,7 +153,14 @@ def init(
     answer(lambda: actions.init(kind, file, force), as_json)
 
 
-@app.command()
+@app.command(
+    rich_help_panel=panels.PRINT,
+    epilog=examples(
+        "bellows design finger -o finger.stl",
+        "bellows design finger -o finger.3mf --with-settings",
+        "bellows design my_finger.toml -o finger.step --set bubble_width=18",
+    ),
+)
 def design(
     name: DesignName,
     output: Annotated[
@@ -134,7 +175,14 @@ def design(
     answer(lambda: actions.design(options, output, with_settings), as_json)
 
 
-@app.command()
+@app.command(
+    rich_help_panel=panels.PRINT,
+    epilog=examples(
+        "bellows check my_finger.toml --printer bambu_a1",
+        "bellows check gripper.step --orientation auto",
+        "bellows check gripper.stl --opening 0,12.5,8 --slice --picture leak.png",
+    ),
+)
 def check(
     name: Checked,
     printer: Printer = None,
@@ -159,7 +207,14 @@ def check(
     answer(lambda: check_part(options), as_json)
 
 
-@app.command()
+@app.command(
+    rich_help_panel=panels.COMPUTE,
+    epilog=examples(
+        "bellows evaluate finger",
+        "bellows evaluate finger --pressure 0.02:0.1:0.02 --vtu bent.vtu",
+        "bellows evaluate finger --set bubble_thickness=1.2 --sensitivities",
+    ),
+)
 def evaluate(
     name: DesignName,
     model: Annotated[ModelName, typer.Option(help="auto: the smallest model that answers.")] = (
@@ -183,7 +238,13 @@ def evaluate(
     answer(lambda: actions.evaluate(*asked, not no_cache, sensitivities), as_json)
 
 
-@app.command()
+@app.command(
+    rich_help_panel=panels.PRINT,
+    epilog=examples(
+        "bellows run finger",
+        "bellows run my_finger.toml --printer my_printer.toml --output parts",
+    ),
+)
 def run(
     name: DesignName,
     output: Annotated[Path, typer.Option(help="Folder of the approved models.")] = Path("exports"),
@@ -201,7 +262,13 @@ def run(
     answer(lambda: actions.run(options, output, limits, not no_cache), as_json)
 
 
-@app.command()
+@app.command(
+    rich_help_panel=panels.PRINT,
+    epilog=examples(
+        "bellows verify exports/finger",
+        "bellows verify exports/finger --quick",
+    ),
+)
 def verify(
     folder: ExportFolder,
     quick: Quick = False,
@@ -216,7 +283,12 @@ def verify(
     answer(lambda: actions.verify(folder, quick, limits, not no_cache), as_json)
 
 
-@app.command()
+@app.command(
+    rich_help_panel=panels.STUDY,
+    epilog=examples(
+        "bellows benchmark prototype_1 --plot speed.png",
+    ),
+)
 def benchmark(
     name: DesignName = "prototype_1",
     model: Annotated[
@@ -239,7 +311,13 @@ def benchmark(
     answer(lambda: actions.benchmark(options, models, meshes, output, plot, limits), as_json)
 
 
-@app.command()
+@app.command(
+    rich_help_panel=panels.HOUSEKEEPING,
+    epilog=examples(
+        "bellows cache",
+        "bellows cache --clear",
+    ),
+)
 def cache(
     clear: Annotated[bool, typer.Option("--clear", help="Remove all of it.")] = False,
     as_json: AsJson = False,
@@ -248,7 +326,13 @@ def cache(
     answer(lambda: actions.cache(clear), as_json)
 
 
-@app.command()
+@app.command(
+    rich_help_panel=panels.COMPUTE,
+    epilog=examples(
+        "bellows fit tensile.csv --plot fit.png",
+        "bellows fit a.csv b.csv -o my_rubber.toml --yield-strength 4",
+    ),
+)
 def fit(
     data: FitData,
     model: FitModelName = BEST,

@@ -12,6 +12,8 @@ from typing import Annotated
 import typer
 
 from bellows_design.cli.answer import answer
+from bellows_design.cli.layout import panels
+from bellows_design.cli.layout.group import Commands
 from bellows_design.cli.options import (
     Accuracy,
     AsJson,
@@ -32,13 +34,24 @@ class Sample(StrEnum):
 
 
 study = typer.Typer(
+    cls=Commands,
     help="Studies: many evaluations that answer one question.",
     no_args_is_help=True,
     pretty_exceptions_enable=False,
 )
 
-Output = Annotated[Path | None, typer.Option(help="Also write everything as .json.")]
-Plot = Annotated[Path | None, typer.Option(help="Also draw it (.png); needs matplotlib.")]
+Output = Annotated[
+    Path | None,
+    typer.Option(
+        metavar="FILE", help="Also write everything as .json.", rich_help_panel=panels.FILES
+    ),
+]
+Plot = Annotated[
+    Path | None,
+    typer.Option(
+        metavar="FILE", help="Also draw it (.png); needs matplotlib.", rich_help_panel=panels.FILES
+    ),
+]
 
 
 @study.command()
@@ -116,9 +129,12 @@ def sweep(
     retry_failed: Annotated[
         bool, typer.Option("--retry-failed", help="Ask again what failed.")
     ] = False,
-    csv: Annotated[Path | None, typer.Option(help="Also write all results as .csv.")] = None,
+    csv: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Also write all results as .csv.")
+    ] = None,
     parquet: Annotated[
-        Path | None, typer.Option(help="Also write them as .parquet; needs pyarrow.")
+        Path | None,
+        typer.Option(metavar="FILE", help="Also write them as .parquet; needs pyarrow."),
     ] = None,
     settings: Settings = None,
     as_json: AsJson = False,

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from bellows_design.cli.layout import panels
 from bellows_design.cli.options import DesignOptions
 from bellows_design.errors import DesignError
 from bellows_design.validation.quoting import quoted
@@ -30,7 +31,11 @@ Checked = Annotated[
 ]
 FilamentName = Annotated[
     str | None,
-    typer.Option("--filament", help="Filament, or a TOML file, instead of the printer's."),
+    typer.Option(
+        "--filament",
+        help="Filament, or a TOML file, instead of the printer's.",
+        rich_help_panel=panels.DESIGN,
+    ),
 ]
 Openings = Annotated[
     list[str] | None,
@@ -58,11 +63,21 @@ RequireSlicer = Annotated[
     bool, typer.Option("--require-slicer", help="With --slice: without a slicer the check fails.")
 ]
 Picture = Annotated[
-    Path | None, typer.Option(help="Also draw the layer with the leak or the thinnest seal (.png).")
+    Path | None,
+    typer.Option(
+        metavar="FILE",
+        help="Also draw the layer with the leak or the thinnest seal (.png).",
+        rich_help_panel=panels.FILES,
+    ),
 ]
 KeepGcode = Annotated[
     Path | None,
-    typer.Option("--keep-gcode", metavar="FILE", help="Also write the G-code (.gcode)."),
+    typer.Option(
+        "--keep-gcode",
+        metavar="FILE",
+        help="Also write the G-code (.gcode).",
+        rich_help_panel=panels.FILES,
+    ),
 ]
 
 

@@ -9,6 +9,7 @@ from typing import Annotated
 import typer
 
 from bellows_design.cli.answer import Answer, answer
+from bellows_design.cli.layout import panels
 from bellows_design.cli.options import (
     AsJson,
     BudgetOptions,
@@ -92,6 +93,7 @@ ColumnNames = Annotated[
         metavar="NAMES",
         help="Names of the columns instead of the header's: pressure_kpa,angle_deg, with - for one "
         "to leave out; or by number: pressure_kpa=2,angle_deg=4.",
+        rich_help_panel=panels.READING,
     ),
 ]
 UnitNames = Annotated[
@@ -101,11 +103,16 @@ UnitNames = Annotated[
         metavar="UNITS",
         help="Units instead of the header's: pressure=kPa (MPa, bar, psi …), angle=deg (rad), "
         "displacement=mm, force=N.",
+        rich_help_panel=panels.READING,
     ),
 ]
 BranchOption = Annotated[
     BranchName,
-    typer.Option("--branch", help="Of a test that goes to and fro: loading, unloading or all."),
+    typer.Option(
+        "--branch",
+        help="Of a test that goes to and fro: loading, unloading or all.",
+        rich_help_panel=panels.READING,
+    ),
 ]
 Fit = Annotated[
     bool, typer.Option("--fit/--no-fit", help="Whether a factor on the stiffness is fitted.")
@@ -124,12 +131,19 @@ Uncertainty = Annotated[
 WriteMaterial = Annotated[
     Path | None,
     typer.Option(
-        "--write-material", metavar="FILE", help="Also write the material with the factor (.toml)."
+        "--write-material",
+        metavar="FILE",
+        help="Also write the material with the factor (.toml).",
+        rich_help_panel=panels.FILES,
     ),
 ]
 Plot = Annotated[
     Path | None,
-    typer.Option(help="Also draw both curves, bands and residuals (.png); needs matplotlib."),
+    typer.Option(
+        metavar="FILE",
+        help="Also draw both curves, bands and residuals (.png); needs matplotlib.",
+        rich_help_panel=panels.FILES,
+    ),
 ]
 
 

@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from bellows_design.cli.answer import answer
+from bellows_design.cli.layout import panels
 from bellows_design.cli.options import (
     AsJson,
     BudgetOptions,
@@ -45,11 +46,19 @@ Flow = Annotated[
 ]
 Picture = Annotated[
     Path | None,
-    typer.Option(help="Also draw the finger's shapes (.png); needs matplotlib."),
+    typer.Option(
+        metavar="FILE",
+        help="Also draw the finger's shapes (.png); needs matplotlib.",
+        rich_help_panel=panels.FILES,
+    ),
 ]
 Plot = Annotated[
     Path | None,
-    typer.Option(help="Also draw force over pressure and distance (.png); needs matplotlib."),
+    typer.Option(
+        metavar="FILE",
+        help="Also draw force over pressure and distance (.png); needs matplotlib.",
+        rich_help_panel=panels.FILES,
+    ),
 ]
 
 
