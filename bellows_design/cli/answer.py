@@ -13,15 +13,19 @@ import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import typer
 
 from bellows_design.cli.early_signals import ended_by
 from bellows_design.cli.interruption import ended_in_time, interruption_in, raising_signals
+from bellows_design.cli.layout.asked import command_asked
 from bellows_design.cli.layout.said import error_content, print_error, print_json, stated
+from bellows_design.cli.surroundings.courses import courses_of, learn
 from bellows_design.errors import BellowsError, ClusterError, UnreachedError
 from bellows_design.files.errors import CannotWrite
+from bellows_design.progress.shown import Shown, shown_as
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -38,8 +42,9 @@ whose objects all stay."""
 CLEARING_UP = {
     "solver.meshing.process": "kill",
     "bellows_design.files.atomic": "remove_unfinished",
+    "bellows_design.progress.bar": "leave_terminal",
 }
-"""Modules, and their functions that remove what is unfinished when a process ends at once."""
+"""Modules, and their functions that clear up what is unfinished when a process ends at once."""
 
 
 @dataclass(frozen=True)
@@ -56,14 +61,18 @@ class Answer:
     unwritten: CannotWrite | None = None
 
 
-def answer(work: Callable[[], Answer], as_json: bool) -> None:
-    """Do ``work`` and print its answer, or one sentence on why there is none; then exit."""
+def answer(work: Callable[[], Answer], as_json: bool, quiet: bool = False) -> None:
+    """Do ``work`` and print its answer, or one sentence on why there is none; then exit.
+
+    ``quiet``: without progress and notes on the way.
+    """
     try:
         with (
             raising_signals() as signals,
             stdout_is_stderr() as stdout,
             ended_in_time(lambda number: _leave(number, stdout if as_json else None)),
             rare_garbage_collection(),
+            shown_as(_progress(quiet)),
         ):
             result = work()
     except BaseException as error:
@@ -82,6 +91,12 @@ def answer(work: Callable[[], Answer], as_json: bool) -> None:
         typer.echo(f"bellows: {result.unwritten}.", err=True)
         raise typer.Exit(BAD_INPUT)
     raise typer.Exit(result.status)
+
+
+def _progress(quiet: bool) -> Shown:
+    """How the progress of the command that was typed is shown."""
+    command = command_asked()
+    return Shown(quiet, partial(courses_of, command), partial(learn, command))
 
 
 def unwritten(*writers: Callable[[], None]) -> CannotWrite | None:

@@ -58,6 +58,7 @@ from bellows_design.cli.options import (
     Pressure,
     Printer,
     Quick,
+    Quiet,
     Settings,
     Skip,
     TimeLimit,
@@ -168,11 +169,12 @@ def design(
     ],
     settings: Settings = None,
     with_settings: WithSettings = False,
+    quiet: Quiet = False,
     as_json: AsJson = False,
 ) -> None:
     """Build the printed part and write it as STL, 3MF or STEP."""
     options = DesignOptions(name, tuple(settings or ()))
-    answer(lambda: actions.design(options, output, with_settings), as_json)
+    answer(lambda: actions.design(options, output, with_settings), as_json, quiet)
 
 
 @app.command(
@@ -195,6 +197,7 @@ def check(
     picture: Picture = None,
     keep_gcode: KeepGcode = None,
     settings: Settings = None,
+    quiet: Quiet = False,
     as_json: AsJson = False,
 ) -> None:
     """Check a design, or a part of any program, against the rules of a printer."""
@@ -204,7 +207,7 @@ def check(
         name, tuple(settings or ()), printer, filament, tuple(opening or ()), up, orientation,
         slice_it, require_slicer, picture, keep_gcode,
     )  # fmt: skip
-    answer(lambda: check_part(options), as_json)
+    answer(lambda: check_part(options), as_json, quiet)
 
 
 @app.command(
@@ -229,13 +232,14 @@ def evaluate(
     mesh_seconds: MeshSeconds = None,
     seconds: TimeLimit = None,
     no_cache: NoCache = False,
+    quiet: Quiet = False,
     as_json: AsJson = False,
 ) -> None:
     """Compute bending angle and stress under pressure."""
     options = DesignOptions(name, tuple(settings or ()))
     limits = BudgetOptions(memory, mesh_seconds, seconds)
     asked = (options, model.value, pressure, accuracy, vtu, limits)
-    answer(lambda: actions.evaluate(*asked, not no_cache, sensitivities), as_json)
+    answer(lambda: actions.evaluate(*asked, not no_cache, sensitivities), as_json, quiet)
 
 
 @app.command(
@@ -254,12 +258,13 @@ def run(
     mesh_seconds: MeshSeconds = None,
     seconds: TimeLimit = None,
     no_cache: NoCache = False,
+    quiet: Quiet = False,
     as_json: AsJson = False,
 ) -> None:
     """Design, check, evaluate, decide, and export what is approved."""
     options = DesignOptions(name, tuple(settings or ()), printer)
     limits = BudgetOptions(memory, mesh_seconds, seconds)
-    answer(lambda: actions.run(options, output, limits, not no_cache), as_json)
+    answer(lambda: actions.run(options, output, limits, not no_cache), as_json, quiet)
 
 
 @app.command(
@@ -276,11 +281,12 @@ def verify(
     mesh_seconds: MeshSeconds = None,
     seconds: TimeLimit = None,
     no_cache: NoCache = False,
+    quiet: Quiet = False,
     as_json: AsJson = False,
 ) -> None:
     """Check every file of an export, and whether it would be approved again."""
     limits = BudgetOptions(memory, mesh_seconds, seconds)
-    answer(lambda: actions.verify(folder, quick, limits, not no_cache), as_json)
+    answer(lambda: actions.verify(folder, quick, limits, not no_cache), as_json, quiet)
 
 
 @app.command(
@@ -303,12 +309,13 @@ def benchmark(
     settings: Settings = None,
     memory: Memory = None,
     mesh_seconds: MeshSeconds = None,
+    quiet: Quiet = False,
     as_json: AsJson = False,
 ) -> None:
     """Measure speed against error: models by meshes, against converged values."""
     options = DesignOptions(name, tuple(settings or ()))
     models, limits = [each.value for each in model or ()], BudgetOptions(memory, mesh_seconds)
-    answer(lambda: actions.benchmark(options, models, meshes, output, plot, limits), as_json)
+    answer(lambda: actions.benchmark(options, models, meshes, output, plot, limits), as_json, quiet)
 
 
 @app.command(

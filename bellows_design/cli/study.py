@@ -20,6 +20,7 @@ from bellows_design.cli.options import (
     DesignName,
     DesignOptions,
     NoCache,
+    Quiet,
     Settings,
 )
 from bellows_design.cli.studies.options import Scheduler, Workers
@@ -56,12 +57,16 @@ Plot = Annotated[
 
 @study.command()
 def paper(
-    output: Output = None, plot: Plot = None, no_cache: NoCache = False, as_json: AsJson = False
+    output: Output = None,
+    plot: Plot = None,
+    no_cache: NoCache = False,
+    quiet: Quiet = False,
+    as_json: AsJson = False,
 ) -> None:
     """Compute every design of the paper and compare."""
     from bellows_design.cli.studies.paper import paper as compare
 
-    answer(lambda: compare(output, plot, not no_cache), as_json)
+    answer(lambda: compare(output, plot, not no_cache), as_json, quiet)
 
 
 @study.command()
@@ -89,6 +94,7 @@ def sensitivity(
     output: Output = None,
     plot: Plot = None,
     no_cache: NoCache = False,
+    quiet: Quiet = False,
     as_json: AsJson = False,
 ) -> None:
     """How angle, stress and volume depend on every number, and within tolerances."""
@@ -96,7 +102,7 @@ def sensitivity(
 
     options = DesignOptions(name, tuple(settings or ()))
     asked = (percent, samples, wall, modulus, seed, not no_sobol, output, plot, not no_cache)
-    answer(lambda: examine(options, *asked), as_json)
+    answer(lambda: examine(options, *asked), as_json, quiet)
 
 
 @study.command()
@@ -137,6 +143,7 @@ def sweep(
         typer.Option(metavar="FILE", help="Also write them as .parquet; needs pyarrow."),
     ] = None,
     settings: Settings = None,
+    quiet: Quiet = False,
     as_json: AsJson = False,
 ) -> None:
     """Evaluate many designs around one: a grid or a sample."""
@@ -148,7 +155,9 @@ def sweep(
         ordinary, accuracy,
     )  # fmt: skip
     answer(
-        lambda: look(options, Files(file, csv, parquet), workers, scheduler, retry_failed), as_json
+        lambda: look(options, Files(file, csv, parquet), workers, scheduler, retry_failed),
+        as_json,
+        quiet,
     )
 
 
@@ -163,6 +172,7 @@ def indent(
     output: Output = None,
     plot: Plot = None,
     no_cache: NoCache = False,
+    quiet: Quiet = False,
     as_json: AsJson = False,
 ) -> None:
     """Search for the indent that does what the paper's did, and for the one of least stress."""
@@ -171,4 +181,4 @@ def indent(
 
     options = DesignOptions(name, tuple(settings or ()))
     how = IndentOptions(points, accuracy, not no_cache)
-    answer(lambda: search(options, how, output, plot), as_json)
+    answer(lambda: search(options, how, output, plot), as_json, quiet)

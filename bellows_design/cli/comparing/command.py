@@ -19,6 +19,7 @@ from bellows_design.cli.options import (
     Memory,
     MeshSeconds,
     NoCache,
+    Quiet,
     Settings,
     Skip,
     TimeLimit,
@@ -170,6 +171,7 @@ def compare(
     mesh_seconds: MeshSeconds = None,
     seconds: TimeLimit = None,
     no_cache: NoCache = False,
+    quiet: Quiet = False,
     as_json: AsJson = False,
 ) -> None:
     """Hold a measurement against the model: how stiff is the print?"""
@@ -192,4 +194,4 @@ def compare(
         )  # fmt: skip
         return compare_answer(options)
 
-    answer(work, as_json)
+    answer(work, as_json, quiet)

@@ -18,6 +18,7 @@ from bellows_design.cli.options import (
     MeshSeconds,
     NoCache,
     Pressure,
+    Quiet,
     Settings,
     TimeLimit,
 )
@@ -75,6 +76,7 @@ def force(
     mesh_seconds: MeshSeconds = None,
     seconds: TimeLimit = None,
     no_cache: NoCache = False,
+    quiet: Quiet = False,
     as_json: AsJson = False,
 ) -> None:
     """Compute what the actuator exerts in a scene: blocked, carrying, gripping."""
@@ -84,4 +86,4 @@ def force(
         DesignOptions(name, tuple(settings or ())), scene, pressure, by_distance, flow, picture,
         plot, BudgetOptions(memory, mesh_seconds, seconds), not no_cache,
     )  # fmt: skip
-    answer(lambda: force_answer(options), as_json)
+    answer(lambda: force_answer(options), as_json, quiet)
