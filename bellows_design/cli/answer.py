@@ -23,6 +23,7 @@ from bellows_design.cli.interruption import ended_in_time, interruption_in, rais
 from bellows_design.cli.layout.asked import command_asked
 from bellows_design.cli.layout.said import error_content, print_error, print_json, stated
 from bellows_design.cli.surroundings.courses import courses_of, learn
+from bellows_design.cli.terminal.console import print_for_people
 from bellows_design.errors import BellowsError, ClusterError, UnreachedError
 from bellows_design.files.errors import CannotWrite
 from bellows_design.progress.shown import Shown, shown_as
@@ -86,7 +87,7 @@ def answer(work: Callable[[], Answer], as_json: bool, quiet: bool = False) -> No
     if as_json:
         print_json(stated(result.content))
     else:
-        _print_text(result.text)
+        print_for_people(result.text)
     if result.unwritten is not None:
         typer.echo(f"bellows: {result.unwritten}.", err=True)
         raise typer.Exit(BAD_INPUT)
@@ -216,19 +217,3 @@ def _print_traceback(error: BaseException) -> None:
     import traceback
 
     typer.echo("".join(traceback.format_exception(error)), err=True)
-
-
-def _print_text(lines: Sequence[RenderableType]) -> None:
-    from rich.console import Console
-
-    _tolerate_any_terminal()
-    console = Console(highlight=False, markup=False, soft_wrap=True)
-    for line in lines:
-        console.print(line)
-
-
-def _tolerate_any_terminal() -> None:
-    """Where the terminal's encoding lacks a character (° µ Ć), print ? rather than fail."""
-    reconfigure = getattr(sys.stdout, "reconfigure", None)
-    if reconfigure is not None:
-        reconfigure(errors="replace")
