@@ -29,6 +29,7 @@ from bellows_design.cli.checking.options import (
     Up,
 )
 from bellows_design.cli.comparing.command import compare
+from bellows_design.cli.completion.options import complete_source
 from bellows_design.cli.force.command import force
 from bellows_design.cli.layout import panels
 from bellows_design.cli.layout.group import Commands
@@ -69,9 +70,9 @@ from bellows_design.cli.options import (
     WithSettings,
     YieldStrength,
 )
+from bellows_design.cli.starting.kinds import Kind, Listed
 from bellows_design.cli.studies.optimize_command import optimize
 from bellows_design.cli.study import study
-from bellows_design.cli.templates import Kind
 from bellows_design.materials.laws import BEST
 
 app = typer.Typer(
@@ -127,31 +128,58 @@ def _root(
         raise typer.Exit(2)
 
 
-@app.command("list", rich_help_panel=panels.START)
-def list_designs(as_json: AsJson = False) -> None:
-    """Name the shipped designs."""
-    answer(actions.list_designs, as_json)
+@app.command(
+    "list",
+    rich_help_panel=panels.START,
+    epilog=examples("bellows list", "bellows list materials", "bellows list keys"),
+)
+def list_known(
+    what: Annotated[
+        Listed,
+        typer.Argument(
+            metavar="WHAT", help="designs, materials, printers, filaments, scenes, keys or all."
+        ),
+    ] = Listed.DESIGNS,
+    as_json: AsJson = False,
+) -> None:
+    """Name what ships: designs, materials, printers, filaments, scenes."""
+    from bellows_design.cli.starting.listing import list_known
+
+    answer(lambda: list_known(what), as_json)
 
 
 @app.command(
     rich_help_panel=panels.START,
     epilog=examples(
         "bellows init design my_finger.toml",
-        "bellows init printer my_printer.toml",
+        "bellows init design my_finger.toml --from prototype_2",
+        "bellows init printer my_printer.toml --from prusa_mk4",
     ),
 )
 def init(
     kind: Annotated[
-        Kind, typer.Argument(metavar="KIND", help="design, printer, material or body.")
+        Kind,
+        typer.Argument(metavar="KIND", help="design, scene, printer, filament, material or body."),
     ],
     file: Annotated[Path, typer.Argument(metavar="FILE", help="File to write: .toml.")],
+    source: Annotated[
+        str | None,
+        typer.Option(
+            "--from",
+            metavar="NAME",
+            help="Begin with the values of that design, printer …: a name, or a TOML file.",
+            autocompletion=complete_source,
+        ),
+    ] = None,
     force: Annotated[
         bool, typer.Option("--force", help="Replace the file if it is there.")
     ] = False,
     as_json: AsJson = False,
 ) -> None:
-    """Write a commented design, printer, material or own body to start from."""
-    answer(lambda: actions.init(kind, file, force), as_json)
+    """Write a commented design, printer, material … to start from."""
+    from bellows_design.cli.starting.init import init as write
+
+    answer(lambda: write(kind, file, force, source), as_json)
 
 
 @app.command(

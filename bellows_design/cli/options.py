@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from bellows_design.cli.completion.names import designs, exports, printers
+from bellows_design.cli.completion.options import complete_model, complete_setting
 from bellows_design.cli.layout import panels
 from bellows_design.materials.laws import FIT_CHOICES
 
@@ -17,19 +19,29 @@ if TYPE_CHECKING:
 
 DesignName = Annotated[
     str,
-    typer.Argument(metavar="DESIGN", help="A shipped design (see bellows list) or a TOML file."),
+    typer.Argument(
+        metavar="DESIGN",
+        autocompletion=designs,
+        help="A shipped design (see bellows list) or a TOML file.",
+    ),
 ]
 Settings = Annotated[
     list[str] | None,
     typer.Option(
         "--set",
         metavar="KEY=VALUE",
+        autocompletion=complete_setting,
         help="Change one value: bubble_thickness=1.2, indent.depth=0.4. Repeatable.",
         rich_help_panel=panels.DESIGN,
     ),
 ]
 ExportFolder = Annotated[
-    Path, typer.Argument(metavar="FOLDER", help="Folder of an export, such as exports/finger.")
+    Path,
+    typer.Argument(
+        metavar="FOLDER",
+        autocompletion=exports,
+        help="Folder of an export, such as exports/finger.",
+    ),
 ]
 Quick = Annotated[
     bool, typer.Option("--quick", help="Leave out evaluation and leak test, and say so.")
@@ -61,6 +73,7 @@ Printer = Annotated[
     str | None,
     typer.Option(
         metavar="NAME",
+        autocompletion=printers,
         help="Printer profile, or a TOML file, instead of the design's.",
         rich_help_panel=panels.DESIGN,
     ),
@@ -135,7 +148,12 @@ FitData = Annotated[
     ),
 ]
 FitModelName = Annotated[
-    str, typer.Option(help=f"{', '.join(FIT_CHOICES[:-1])} or {FIT_CHOICES[-1]}.")
+    str,
+    typer.Option(
+        metavar="LAW",
+        autocompletion=complete_model,
+        help=f"{', '.join(FIT_CHOICES[:-1])} or {FIT_CHOICES[-1]}.",
+    ),
 ]
 YieldStrength = Annotated[
     float | None,

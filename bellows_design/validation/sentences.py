@@ -101,6 +101,11 @@ def _wanted(kind: str, context: Mapping[str, Any]) -> str:
     return _NOUNS.get(kind, "a number" if kind.startswith("float") else "given")
 
 
+def field_at(model: type[BaseModel], location: Sequence[str]) -> FieldInfo | None:
+    """The field of ``model`` at ``location``; None where it is not known."""
+    return _field(model, location)
+
+
 def unit_at(model: type[BaseModel], location: Sequence[str]) -> str | None:
     """Unit of the field of ``model`` at ``location``; None without one."""
     return _unit_of(_field(model, location))

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from bellows_design.cli.completion.names import designs_and_parts, filaments
 from bellows_design.cli.layout import panels
 from bellows_design.cli.options import DesignOptions
 from bellows_design.errors import DesignError
@@ -26,6 +27,7 @@ Checked = Annotated[
     str,
     typer.Argument(
         metavar="DESIGN|FILE",
+        autocompletion=designs_and_parts,
         help="A shipped design, a TOML file, or a part of any program: .stl, .3mf, .step, .gcode.",
     ),
 ]
@@ -33,6 +35,8 @@ FilamentName = Annotated[
     str | None,
     typer.Option(
         "--filament",
+        metavar="NAME",
+        autocompletion=filaments,
         help="Filament, or a TOML file, instead of the printer's.",
         rich_help_panel=panels.DESIGN,
     ),

@@ -9,6 +9,7 @@ from typing import Annotated
 import typer
 
 from bellows_design.cli.answer import Answer, answer
+from bellows_design.cli.completion.options import complete_scene
 from bellows_design.cli.layout import panels
 from bellows_design.cli.options import (
     AsJson,
@@ -75,6 +76,7 @@ SceneName = Annotated[
     typer.Option(
         "--scene",
         metavar="SCENE",
+        autocompletion=complete_scene,
         help="Of a force: a scene of the design, or a TOML file that holds one; without it the "
         "tip presses on a load cell at its rest height.",
     ),

@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from bellows_design.cli.answer import answer
+from bellows_design.cli.completion.options import complete_scene
 from bellows_design.cli.layout import panels
 from bellows_design.cli.options import (
     AsJson,
@@ -28,6 +29,7 @@ SceneName = Annotated[
     typer.Option(
         "--scene",
         metavar="SCENE",
+        autocompletion=complete_scene,
         help="A scene of the design, free, blocked, or a TOML file that holds one.",
     ),
 ]

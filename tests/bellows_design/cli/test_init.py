@@ -10,7 +10,8 @@ from pathlib import Path
 import pytest
 from pydantic.fields import FieldInfo
 
-from bellows_design.cli.templates import Kind, name_from, template
+from bellows_design.cli.starting.kinds import Kind
+from bellows_design.cli.starting.templates import name_from, template
 from bellows_design.design import (
     BellowsParameters,
     Design,
