@@ -53,13 +53,14 @@ class Answer:
     """What a command found: for a program, for a person, and as an exit status.
 
     ``unwritten`` is why a file that was to hold it besides does not; the status is that of an error
-    then.
+    then. ``states_schema``: whether JSON begins with the name of the answer's schema.
     """
 
     content: dict[str, Any]
     text: Sequence[RenderableType]
     status: int = DONE
     unwritten: CannotWrite | None = None
+    states_schema: bool = True
 
 
 def answer(work: Callable[[], Answer], as_json: bool, quiet: bool = False) -> None:
@@ -85,7 +86,7 @@ def answer(work: Callable[[], Answer], as_json: bool, quiet: bool = False) -> No
         print_error(sentence, status, as_json)
         raise typer.Exit(status) from None
     if as_json:
-        print_json(stated(result.content))
+        print_json(stated(result.content) if result.states_schema else result.content)
     else:
         print_for_people(result.text)
     if result.unwritten is not None:

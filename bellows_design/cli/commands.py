@@ -29,7 +29,7 @@ from bellows_design.cli.checking.options import (
     Up,
 )
 from bellows_design.cli.comparing.command import compare
-from bellows_design.cli.completion.options import complete_source
+from bellows_design.cli.completion.options import complete_schema, complete_source
 from bellows_design.cli.force.command import force
 from bellows_design.cli.layout import panels
 from bellows_design.cli.layout.group import Commands
@@ -344,6 +344,36 @@ def benchmark(
     options = DesignOptions(name, tuple(settings or ()))
     models, limits = [each.value for each in model or ()], BudgetOptions(memory, mesh_seconds)
     answer(lambda: actions.benchmark(options, models, meshes, output, plot, limits), as_json, quiet)
+
+
+@app.command(
+    rich_help_panel=panels.HOUSEKEEPING, epilog=examples("bellows doctor", "bellows doctor --json")
+)
+def doctor(as_json: AsJson = False) -> None:
+    """Say what is installed and works here, and how to mend what does not."""
+    from bellows_design.cli.doctor.answer import doctor as examine
+
+    answer(examine, as_json)
+
+
+@app.command(
+    rich_help_panel=panels.HOUSEKEEPING,
+    epilog=examples("bellows schema", "bellows schema evaluate", "bellows schema study sweep"),
+)
+def schema(
+    command: Annotated[
+        list[str] | None,
+        typer.Argument(
+            metavar="COMMAND",
+            help="A command, error, or a file of an export: manifest.json.",
+            autocompletion=complete_schema,
+        ),
+    ] = None,
+) -> None:
+    """Print the JSON Schema of what a command answers with --json; without one name them all."""
+    from bellows_design.cli.starting.schemas import schema as show
+
+    answer(lambda: show(command or ()), bool(command))
 
 
 @app.command(

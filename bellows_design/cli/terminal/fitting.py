@@ -20,6 +20,9 @@ COMFORTABLE, TIGHT = 16, 8
 """Columns that a cell with several words has at least, if it has that many at all; and where there
 is little room."""
 
+LONGEST_WORD = 32
+"""Columns. Longer words, such as paths, go on in the next line."""
+
 INDENT = 2
 
 
@@ -92,7 +95,7 @@ def _least(column: Column, table: Table, comfort: int, console: Console) -> int:
         return natural
     words = (word for line in _lines(column, table, console) for word in line.plain.split())
     longest = max((Text(word).cell_len for word in words), default=0)
-    return max(longest, min(natural, comfort))
+    return max(min(longest, LONGEST_WORD), min(natural, comfort))
 
 
 def _lines(column: Column, table: Table, console: Console) -> Iterator[Text]:
@@ -146,10 +149,10 @@ def _records(table: Table, console: Console) -> Iterator[RenderableType]:
 
 def _record(heads: Sequence[Text], cells: Sequence[Text], console: Console) -> Iterator[Text]:
     """The cells of a row; one that has no heading is one with the next, as a verdict is."""
-    first, *others = (_named(*each) for each in zip(heads, cells, strict=True))
-    if others and heads[1].plain and not heads[0].plain:
-        first = first + Text(" ") + cells[1]
-        del others[0]
+    bare = next((n for n, head in enumerate(heads) if head.plain), len(heads) - 2)
+    begin = max(bare, 0) if bare else 0
+    first = Text(" ").join(cells[: begin + 1]) if begin else _named(heads[0], cells[0])
+    others = [_named(*each) for each in zip(heads[begin + 1 :], cells[begin + 1 :], strict=True)]
     yield from hanging(first, console.width, console)
     for each in others:
         if each.plain.strip():
