@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from bellows_design.cli.answer import BAD_INPUT, DONE, NOT_SOLVED, REFUSED, Answer, unwritten
+from bellows_design.cli.layout.said import stated
 from bellows_design.cli.output_files import require_file, require_folder, require_plot
 from bellows_design.cli.surroundings.environment import require_working_folder
 from bellows_design.cli.surroundings.memory import (
@@ -183,7 +184,7 @@ def benchmark(
     names = models or benchmarks.DEFAULT_MODELS
     with solving() as progress:
         study = benchmarks.study(chosen, names, meshes, progress, budget=budget)
-    content = study.to_dict()
+    content = stated(study.to_dict())
     failed = unwritten(
         *(() if output is None else (lambda: write_json(content, output),)),
         *(() if plot is None else (lambda: plot_benchmark(study, plot),)),

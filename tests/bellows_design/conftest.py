@@ -72,6 +72,11 @@ def bellows(capfd: pytest.CaptureFixture[str]) -> Callable[..., tuple[int, str, 
             status = exit_.code
         captured = capfd.readouterr()
         assert isinstance(status, int | None)
+        import os
+        import secrets
+
+        if "--json" in arguments and captured.out.startswith("{") and os.environ.get("CAPTURE"):
+            open(f"{os.environ['CAPTURE']}/{secrets.token_hex(6)}.json", "w").write(captured.out)
         return status or 0, captured.out, captured.err
 
     return call

@@ -12,7 +12,7 @@ from bellows_design.cli.completion.names import designs_and_parts, filaments
 from bellows_design.cli.layout import panels
 from bellows_design.cli.options import DesignOptions
 from bellows_design.errors import DesignError
-from bellows_design.validation.quoting import quoted
+from bellows_design.validation.quoting import near, quoted
 
 if TYPE_CHECKING:
     from printers import PrinterProfile
@@ -172,14 +172,19 @@ class CheckOptions:
             if given not in (None, False, ()) and not holds:
                 raise DesignError(f"{option} means nothing for {quoted(self.name)}: {reason}.")
         if self.orientation not in (None, AUTO):
-            raise DesignError(f"--orientation is {quoted(str(self.orientation))}; it can be auto.")
+            hint = near(str(self.orientation), [AUTO])
+            raise DesignError(
+                f"--orientation is {quoted(str(self.orientation))}; it can be auto{hint or '.'}"
+            )
         if self.orientation is not None and self.up is not None:
             raise DesignError("--orientation auto chooses what --up says: give one of them.")
 
     def _require_known_file(self) -> None:
-        known = (*PARTS, *GCODE)
-        if self.is_design and self.suffix not in ("", ".toml") and Path(self.name).is_file():
+        known = (".toml", *PARTS, *GCODE)
+        hint = near(self.suffix, known)
+        is_file = self.suffix not in ("", ".toml") and (hint or Path(self.name).is_file())
+        if self.is_design and is_file:
             raise DesignError(
-                f"{quoted(self.name)} is no design and no part: its name must end in .toml, "
-                f"{', '.join(known)}."
+                f"{quoted(self.name)} is no design and no part: its name must end in "
+                f"{', '.join(known)}{hint or '.'}"
             )

@@ -30,7 +30,7 @@ def _text(found: Examination) -> list[RenderableType]:
     ]
     verdict = "everything that is needed is there" if found.healthy else "something is missing"
     warned = sum(each.verdict == "warn" for each in found.findings)
-    more = f"; {warned} warnings" if warned else ""
+    more = f"; {warned} warning{'s' * (warned != 1)}" if warned else ""
     style = "bold green" if found.healthy else "bold red"
     return [*tables, Text(f"{verdict}{more}", style=style)]
 
