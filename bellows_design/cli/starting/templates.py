@@ -92,8 +92,11 @@ def scene_template(kind: str) -> str:
     for name in sorted(KINDS, key=lambda each: each != kind):
         about = (KINDS[name].__doc__ or name).split("\n")[0].rstrip(".")
         lines += ["", f"# {name}: {about}" if name == kind else f"# instead, {name}: {about}"]
-        for about, key in _pairs(_keys_left_out(KINDS[name])):
-            lines += [about, key.removeprefix("# ") if name == kind else key]
+        for field, (about, key) in zip(
+            KINDS[name].model_fields.values(), _pairs(_keys_left_out(KINDS[name])), strict=True
+        ):
+            left_out = name != kind or (field.default is None and not field.is_required())
+            lines += [about, key if left_out else key.removeprefix("# ")]
     return "\n".join(lines) + "\n"
 
 
