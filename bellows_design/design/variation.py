@@ -21,6 +21,7 @@ from bellows_design.validation.quoting import did_you_mean, quoted
 __all__ = [
     "between",
     "counted",
+    "followed",
     "geometric_parameters",
     "kinked",
     "led_along",
@@ -87,11 +88,19 @@ def varied(design: Design, changes: Mapping[str, float]) -> Design:
     table = design.model_dump()
     for name, value in changes.items():
         _put(table, name, float(value))
+    return Design.of(followed(design, table, frozenset(changes)))
+
+
+def followed(design: Design, table: dict[str, Any], given: frozenset[str]) -> dict[str, Any]:
+    """``table``, made of the design's, with full rounds that are not ``given`` led along.
+
+    The table is changed, and not checked yet: it may be of no design.
+    """
     lengths = _lengths(design)
     for fillet, limits in _full_rounds(design):
-        if fillet not in changes:
+        if fillet not in given and fillet in _limits_in(table):
             _follow(table, fillet, lengths[fillet], min(limits.values()))
-    return Design.of(table)
+    return table
 
 
 def counted(design: Design) -> Design:

@@ -108,13 +108,29 @@ class Neighbourhood:
         Raises:
             BellowsError, MeshingError: As the ordinary evaluation.
         """
-        began = time.perf_counter()
         try:
-            self._require_near(design, reach)
-            way = self._reached(design, self._nearest(design), MOST_HALVINGS)
-            found = self._judged(way)
+            return self.continued(design, reach=reach)
         except (BellowsError, SolverError) as reason:
             return ordinary(design, self.anchor.model.name, str(reason), progress, budget)
+
+    def continued(
+        self,
+        design: Design,
+        progress: Progress = SILENCE,
+        reach: float = REACH,
+        halvings: int = MOST_HALVINGS,
+    ) -> NeighbourEvaluation:
+        """The same without the ordinary evaluation at last: for previews, which cannot wait for it.
+
+        ``progress`` may raise to end a solve; the way is halved no more often than ``halvings``.
+
+        Raises:
+            BellowsError, SolverError: The design cannot be reached; the message says why.
+        """
+        began = time.perf_counter()
+        self._require_near(design, reach)
+        way = self._reached(design, self._nearest(design), halvings, progress)
+        found = self._judged(way)
         anchor, *others = self._solved
         self._solved = [anchor, *[*others, *way.solved][-MOST_STATES:]]
         return replace(found, seconds=Seconds(solve=time.perf_counter() - began))
@@ -174,29 +190,35 @@ class Neighbourhood:
         solution = self._solved[0].solution
         return neighbouring(solution.problem, solution.pressure, solution).newton
 
-    def _reached(self, design: Design, start: SolvedDesign, halvings: int) -> Way:
+    def _reached(
+        self, design: Design, start: SolvedDesign, halvings: int, progress: Progress
+    ) -> Way:
         """The way to ``design``, by designs in between if it cannot be reached at once."""
         try:
-            return Way((self._step(design, start),))
+            return Way((self._step(design, start, progress),))
         except NotReached:
             if halvings == 0:
                 raise
         half = between(start.design, design, 0.5)
-        first = self._reached(half, start, halvings - 1)
-        return Way((*first.solved, *self._reached(design, first.end, halvings - 1).solved))
+        first = self._reached(half, start, halvings - 1, progress)
+        rest = self._reached(design, first.end, halvings - 1, progress)
+        return Way((*first.solved, *rest.solved))
 
-    def _step(self, design: Design, start: SolvedDesign) -> SolvedDesign:
+    def _step(self, design: Design, start: SolvedDesign, progress: Progress) -> SolvedDesign:
         """The equilibrium of ``design`` from that of a neighbour. Raises ``NotReached``."""
         from solver import neighbouring
 
         mesh = self._morpher.mesh_of(design)
         problem = self.anchor.model.problem(design, mesh)
+        at_hand = self._at_hand(start.solution)
+        former, self._newton = self._newton, None  # of no use should the solve be ended
         found = neighbouring(
             problem,
             design.load.pressure,
             start.solution,
-            former=self._newton,
-            at_hand=self._at_hand(start.solution),
+            former=former,
+            at_hand=at_hand,
+            listener=lambda event: progress.load(event.load, event.rotation, event.spent),
         )
         self._newton = found.newton
         if found.solution is None or found.peak is None:

@@ -17,6 +17,7 @@ from solver.assembly.state import State
 from solver.errors import SolverError
 from solver.nonlinear.attempts import Attempt, NoCorrection
 from solver.nonlinear.call_checks import check_call
+from solver.nonlinear.events import Listener
 from solver.nonlinear.linear_system import LinearSystem
 from solver.nonlinear.loading import Loading
 from solver.nonlinear.newton import Newton
@@ -54,6 +55,7 @@ def neighbouring(
     former: Newton | None = None,
     options: SolverOptions | None = None,
     at_hand: Newton | None = None,
+    listener: Listener | None = None,
 ) -> Neighbouring:
     """Equilibrium of ``problem`` under ``pressure`` (MPa), from that of a neighbouring problem.
 
@@ -70,6 +72,8 @@ def neighbouring(
         former: what the solve before left, of no use after this one; by default all is set up anew.
         options: tolerances and the linear solver.
         at_hand: what a solve left whose factorization is that of ``near``; by default ``former``.
+        listener: called at every iteration; an exception of its ends the solve, and ``former`` is
+            of no use either then.
 
     Raises:
         SolverError: invalid input, or a mesh with other tetrahedra or regions.
@@ -79,7 +83,7 @@ def neighbouring(
     _check_same_cells(problem, near.problem)
     began = time.perf_counter()
     loading = Loading.of(problem, float(pressure))
-    newton = Newton(problem, loading, options or OPTIONS, former=former)
+    newton = Newton(problem, loading, options or OPTIONS, listener, former=former)
     start = newton.kinematics.start(near.displacement, near.hydrostatic_pressure)
     attempt = _found(newton, start, (at_hand or newton).system)
     if attempt.failure:

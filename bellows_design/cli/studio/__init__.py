@@ -1,0 +1,1 @@
+"""``bellows studio``: its options and its answer."""

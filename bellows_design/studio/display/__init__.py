@@ -1,0 +1,1 @@
+"""Shapes and rules that follow from a design's numbers without CAD."""

@@ -1,0 +1,1 @@
+"""Angle and stress of a design before its ordinary evaluation, with honest errors."""

@@ -1,0 +1,1 @@
+"""HTTP and the websocket of the studio, bound to this machine alone."""

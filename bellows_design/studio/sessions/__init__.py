@@ -1,0 +1,1 @@
+"""What is computed for each open page, and in what order."""

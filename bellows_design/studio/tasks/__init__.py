@@ -1,0 +1,1 @@
+"""What the studio's processes compute, each from plain values to plain values and arrays."""

@@ -1,0 +1,34 @@
+"""The whole run: check, evaluate, decide, and files of what is approved."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from bellows_design.design.overrides import renamed_if_changed
+from bellows_design.studio.choices.changed import changed, design_of_text
+from bellows_design.studio.tasks.places import store_at
+from bellows_design.studio.workers.reporting import Report
+
+if TYPE_CHECKING:
+    Values = dict[str, Any]
+
+
+def run(values: Values, _: Values, report: Report) -> None:
+    """``bellows run`` of the page's design; a changed one is named after its digest as well."""
+    from bellows_design import pipeline
+
+    base = design_of_text(values["base"])
+    design = renamed_if_changed(changed(base, values["values"]), base)
+    outcome = pipeline.run(design, Path(values["output"]), report, store=store_at(values))
+    folder = outcome.folder
+    report(
+        "ran",
+        name=design.name,
+        approved=outcome.verdict.approved,
+        reasons=[reason.message for reason in outcome.verdict.reasons],
+        warnings=list(outcome.verdict.warnings),
+        not_judged=[f"{each.rule}: {each.why}" for each in outcome.verdict.not_judged],
+        folder=None if folder is None else str(folder),
+        files=[] if folder is None else sorted(each.name for each in folder.iterdir()),
+    )
