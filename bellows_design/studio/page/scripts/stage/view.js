@@ -6,7 +6,8 @@ import { differsMuch, firstField, withGhost } from "./scenes_shown.js";
 const INFLATING_MS = 300;
 
 /**
- * Shows the session's shapes with `viewer`, a `Bellows.Viewer`; `unpack` makes a scene of a message.
+ * Shows the session's shapes with `viewer`, a `Bellows.Viewer`; `unpack` makes a scene of a
+ * message's payload.
  *
  * Event: `scene`, when another scene or another share of the pressure is shown.
  */
@@ -136,7 +137,10 @@ export class View extends EventTarget {
     const { state } = this.#session;
     this.#host.classList.toggle("dimmed", state === "invalid");
     const follows = this.mode === "pressure" && !this.hasDeformed && this.#shown;
-    const texts = { invalid: "the last valid shape", failed: "at rest: no deformed shape of this design is known" };
+    const texts = {
+      invalid: "the last valid shape",
+      failed: "at rest: no deformed shape of this design is known",
+    };
     setText(this.#note, texts[state] ?? (follows ? "at rest; the deformed shape follows" : ""));
   }
 }
