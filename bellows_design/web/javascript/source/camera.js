@@ -34,6 +34,8 @@ export class Camera {
     this.orbit.addEventListener("change", changed);
     this.orbit.addEventListener("start", taken);
     canvas.style.touchAction = "pan-y"; // a finger that moves up or down scrolls the page
+    canvas.addEventListener("pointerdown", ({ isPrimary }) => isPrimary && this.orbit.saveState());
+    canvas.addEventListener("pointercancel", () => this.orbit.reset()); // it was a scroll
   }
 
   /** The canvas's size, pixels, and the room for what lies over it, as shares of its sides. */

@@ -224,9 +224,12 @@ export class SliderRow {
   }
 }
 
+// The same for all of a unit, so that they can be compared.
+const STEPS = { mm: 0.1, MPa: 0.01 };
+
 /** "↑ +0.1 mm: +4°, +0.1 MPa" */
 export function sensitivityText(parameter, { angle_per_unit: angle, stress_per_unit: stress }) {
-  const step = parameter.unit === "MPa" ? 0.01 : parameter.step || 0.1;
+  const step = STEPS[parameter.unit] ?? 1;
   const arrow = angle > 0 ? "↑" : angle < 0 ? "↓" : "→";
   const parts = [`${signed(angle * step)}°`];
   if (stress !== null && stress !== undefined) parts.push(`${signed(stress * step)} MPa`);

@@ -3,8 +3,11 @@
 import { element, setText } from "../parts/elements.js";
 import { readable } from "../parameters/choice.js";
 
-const ORDER = ["fail", "warn", "info", "pass"];
+const ORDER = ["fail", "warn"];
+const FOLDED = new Set(["info", "pass"]);
 const SIGNS = { fail: "✕", warn: "!", info: "i", pass: "✓" };
+const NAMES = { pass: ["rule kept", "rules kept"], info: ["note", "notes"] };
+
 const SENTENCES = {
   pass: (preview) =>
     preview ? "Holds, as far as the preview can say." : "Fit to be printed and to hold.",
@@ -49,8 +52,10 @@ export class Lights {
     if (source === "declared") this.#sets.delete("measured");
     this.#sets.set(source, { lights, revision });
     const { lights: found } = this.#current();
-    const open = this.lights.querySelector("details")?.open ?? false;
-    this.lights.replaceChildren(...sorted(found), passed(found, open));
+    const isOpen = (verdict) =>
+      this.lights.querySelector(`details[data-verdict="${verdict}"]`)?.open ?? false;
+    const notes = [...FOLDED].map((verdict) => folded(found, verdict, isOpen(verdict)));
+    this.lights.replaceChildren(...sorted(found), ...notes);
     this.#show();
   }
 
@@ -114,21 +119,22 @@ function verdictOf(answer, state, problems) {
 }
 
 function sorted(lights) {
-  const shown = lights.filter((light) => light.verdict !== "pass");
+  const shown = lights.filter((light) => !FOLDED.has(light.verdict));
   shown.sort((one, other) => ORDER.indexOf(one.verdict) - ORDER.indexOf(other.verdict));
   return shown.map(row);
 }
 
-/** The rules that are kept, folded away. */
-function passed(lights, open) {
-  const kept = lights.filter((light) => light.verdict === "pass");
-  if (!kept.length) return "";
-  const rules = new Set(kept.map((light) => light.rule)).size;
+/** Rules that are kept, or notes, folded away. */
+function folded(lights, verdict, isOpen) {
+  const found = lights.filter((light) => light.verdict === verdict);
+  if (!found.length) return "";
+  const count = new Set(found.map((light) => light.rule)).size;
+  const [one, more] = NAMES[verdict];
   return element(
     "details",
-    { class: "passed", open },
-    element("summary", {}, sign("pass"), `${rules} ${rules === 1 ? "rule" : "rules"} kept`),
-    ...kept.map(row),
+    { class: "folded", "data-verdict": verdict, open: isOpen },
+    element("summary", {}, sign(verdict), `${count} ${count === 1 ? one : more}`),
+    ...found.map(row),
   );
 }
 

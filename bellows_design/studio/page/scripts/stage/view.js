@@ -96,11 +96,17 @@ export class View extends EventTarget {
     const ghost = this.#ghost && (this.#ghost[kind] ?? this.#ghost.rest);
     this.#viewer.show(withGhost(scene, ghost), { keepView: true });
     const field = this.#fields[kind];
-    this.#viewer.setField(field === undefined ? firstField(scene) : field);
+    this.#viewer.setField(field === undefined ? firstField(scene) : field, this.#scale(kind));
     if (kind === "deformed") this.#viewer.setFrame(this.blend);
     this.#fit();
     this.#showState();
     this.dispatchEvent(new CustomEvent("scene"));
+  }
+
+  /** Stress is coloured from zero to its limit, so that designs can be compared by their colours. */
+  #scale(kind) {
+    const limit = this.#session.answer?.stress_limit_mpa;
+    return kind === "deformed" && limit ? { low: 0, high: limit, limit } : {};
   }
 
   /** Each of both shapes keeps the colours that were chosen for it in the viewer's own bar. */
