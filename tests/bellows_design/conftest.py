@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
 import pytest
+from answers import assert_fits
 from fakes import fake_report
 
 from bellows_design.budget import DEFAULT, Budget
@@ -61,7 +63,10 @@ def stub_stages(monkeypatch: pytest.MonkeyPatch, cube_part: Part) -> Callable[..
 
 @pytest.fixture
 def bellows(capfd: pytest.CaptureFixture[str]) -> Callable[..., tuple[int, str, str]]:
-    """Run the command in this process: (exit status, stdout, stderr)."""
+    """Run the command in this process: (exit status, stdout, stderr).
+
+    With ``--json`` the answer is as the schema that it names says.
+    """
     from bellows_design.cli.commands import app
 
     def call(*arguments: str) -> tuple[int, str, str]:
@@ -72,6 +77,8 @@ def bellows(capfd: pytest.CaptureFixture[str]) -> Callable[..., tuple[int, str, 
             status = exit_.code
         captured = capfd.readouterr()
         assert isinstance(status, int | None)
+        if "--json" in arguments:
+            assert_fits(json.loads(captured.out))
         return status or 0, captured.out, captured.err
 
     return call

@@ -27,6 +27,7 @@ from statistics import median, quantiles
 from typing import Any
 
 import aiohttp
+import psutil
 
 from bellows_design.design.shipped import load_design
 from bellows_design.machine import machine
@@ -36,7 +37,7 @@ SEED = 20261127
 REACHES = ((0.7, 0.1), (0.9, 1 / 3), (1.0, 1.0))
 """Up to which share of moves, and how far they go, as a share of the slider's range."""
 
-INPUTS, REST, PAUSE, TICK = 6, 0.12, 1.0, 0.01
+INPUTS, REST, PAUSE, TICK = 6, 0.12, 3.0, 0.01
 """Messages of one move; s: until rest, between moves, between two looks at the clock."""
 
 LONGEST = 60.0
@@ -63,6 +64,7 @@ class Move:
     toml: str = ""
     evaluated_deg: float | None = None
     evaluated_error_percent: float | None = None
+    processor_seconds: float = 0.0
     load: float = 0.0
 
     @property
@@ -110,9 +112,11 @@ class Client:
             await self.tell("change", values=self.values)
             sent = time.perf_counter()
             await asyncio.sleep(REST if step == inputs else 1 / 60)
-        rested = time.perf_counter()
+        rested, spent = time.perf_counter(), processor_seconds()
         await self.tell("rest")
-        return await self._answered(Move(name, self.values[name]), sent, rested)
+        move = await self._answered(Move(name, self.values[name]), sent, rested)
+        move.processor_seconds = processor_seconds() - spent
+        return move
 
     async def _answered(self, move: Move, sent: float, rested: float) -> Move:
         while True:
@@ -137,6 +141,14 @@ class Client:
                 move.angle_deg = found["bending_angle_deg"]
                 move.error_percent = found["angle_error_percent"]
                 return move
+
+
+def processor_seconds() -> float:
+    """Of the server and all its processes but this one, so far, s."""
+    server = psutil.Process(os.getppid())
+    others = [each for each in server.children(recursive=True) if each.pid != os.getpid()]
+    times = [each.cpu_times() for each in (server, *others)]
+    return float(sum(each.user + each.system for each in times))
 
 
 async def drive(address: str, design: str, moves: int) -> list[Move]:
@@ -186,7 +198,8 @@ def line(move: Move) -> str:
     angle = "" if move.angle_deg is None else f"{move.angle_deg:8.2f}°"
     shape = "" if move.shape_seconds is None else f" shape {1e3 * move.shape_seconds:.0f} ms"
     place = f"{move.parameter} = {move.value:g}"
-    return f"{place:32} {move.outcome:8} {move.seconds:6.2f} s {angle} {move.how[:60]}{shape}"
+    spent = f"{move.seconds:6.2f} s ({move.processor_seconds:.2f} s of processors)"
+    return f"{place:32} {move.outcome:8} {spent} {angle} {move.how[:60]}{shape}"
 
 
 def check(moves: list[Move], count: int) -> None:
@@ -219,6 +232,10 @@ def summary(moves: list[Move], late: list[float]) -> dict[str, Any]:
         "median_s": median(seconds),
         "nine_in_ten_s": quantiles(seconds, n=10)[-1],
         "longest_s": max(seconds),
+        "processor_median_s": median(move.processor_seconds for move in answered),
+        "processor_nine_in_ten_s": quantiles([move.processor_seconds for move in answered], n=10)[
+            -1
+        ],
         "how": {kind: sum(move.how.startswith(kind) for move in answered) for kind in kinds},
         "shape_median_ms": 1e3 * median(shapes),
         "shape_nine_in_ten_ms": 1e3 * quantiles(shapes, n=10)[-1],

@@ -21,6 +21,7 @@ def tasks() -> dict[str, Any]:
         "toml": _toml,
         "cell": _nothing,
         "anchor": _nothing,
+        "warm": _nothing,
         "preview": _work("preview"),
         "part": _nothing,
         "refine": _work("refined"),

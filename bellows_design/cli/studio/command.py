@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from bellows_design.cli.answer import Answer, answer
-from bellows_design.cli.options import AsJson, DesignName, DesignOptions, Settings
+from bellows_design.cli.options import DesignName, DesignOptions, Settings
 
 Port = Annotated[
     int, typer.Option(metavar="N", help="Port of this machine; 0 for any that is free.")
@@ -25,11 +25,10 @@ def studio(
     no_browser: NoBrowser = False,
     output: Output = Path("exports"),
     settings: Settings = None,
-    as_json: AsJson = False,
 ) -> None:
     """Open a page on this machine: move sliders, see shape, angle and stress."""
     options = DesignOptions(name, tuple(settings or ()))
-    answer(lambda: served(options, port, not no_browser, output), as_json)
+    answer(lambda: served(options, port, not no_browser, output), as_json=False)
 
 
 def served(options: DesignOptions, port: int, browser: bool, output: Path) -> Answer:
@@ -44,7 +43,7 @@ def served(options: DesignOptions, port: int, browser: bool, output: Path) -> An
     from bellows_design.studio.serving.running import Options, serve
 
     serve(Options(design, port, browser=browser, output=output), _tell)
-    return Answer({"design": design.name, "ended": True}, ["The studio has ended."])
+    return Answer({}, ["The studio has ended."])
 
 
 def _tell(address: str) -> None:

@@ -120,9 +120,18 @@ def _put(table: Table, key: str, value: Any) -> None:
 def _refuse_files(table: Mapping[str, Any]) -> None:
     """Raise ``DesignError`` where a material or printer is a path: a page opens no files."""
     for key in NAMED:
-        value = table.get(key)
-        if isinstance(value, str) and is_toml(value):
-            raise DesignError(
-                f"{key} is the file {quoted(value)}: the studio takes names and tables; start it "
-                "with the design's file to use it."
-            )
+        for value in _named_in(table.get(key)):
+            if is_toml(value) or "/" in value or "\\" in value:
+                raise DesignError(
+                    f"{key} is the file {quoted(value)}: the studio takes names and tables; start "
+                    "it with the design's file to use it."
+                )
+
+
+def _named_in(value: Any) -> Iterator[str]:
+    """The names that a material or printer is given by: itself, or what its table extends."""
+    if isinstance(value, str):
+        yield value
+    if isinstance(value, Mapping):
+        for key in ("extends", "filament"):
+            yield from _named_in(value.get(key))

@@ -1,7 +1,8 @@
 """A first answer where nothing evaluated before has the same faces: the cell on a coarse mesh.
 
 What the finer meshes and the ends would add is taken from the nearest evaluation, and the estimated
-error is as wide as that is uncertain. Without any evaluation the error is not known.
+error is as wide as that is uncertain. Without any evaluation the error is not known. Designs with
+the same faces are then continued from it, until the ordinary evaluation takes its place.
 """
 
 from __future__ import annotations
@@ -9,7 +10,6 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from bellows_design.analysis.computation import Computation
 from bellows_design.analysis.error_estimate import ErrorEstimate
 from bellows_design.analysis.evaluate import evaluation_of
 from bellows_design.analysis.mesh_sequence import begun, refined
@@ -19,6 +19,7 @@ from bellows_design.design.design import Design
 from bellows_design.errors import UnreachedError
 from bellows_design.neighbours.carried import Carried
 from bellows_design.studio.previews.continuation import Anchors
+from bellows_design.studio.previews.light import LightNeighbourhood, TakenOver
 from bellows_design.studio.workers.reporting import Report
 
 if TYPE_CHECKING:
@@ -41,7 +42,7 @@ class Coarse:
 
 
 def coarse(anchors: Anchors, design: Design, report: Report) -> Coarse:
-    """The design's cell by itself on its coarsest mesh.
+    """The design's cell by itself on its coarsest mesh; others may be continued from it.
 
     Raises ``UnreachedError`` if the design has too few bubbles for a cell, or its load cannot be
     reached soon; and what meshing and CAD raise.
@@ -51,35 +52,42 @@ def coarse(anchors: Anchors, design: Design, report: Report) -> Coarse:
         raise UnreachedError(f"no preview: {why}; the evaluation follows")
     computation = refined(begun(design, UNIT_CELL, why, (), report, BUDGET), report)
     if not computation.converged:
-        raise UnreachedError(
-            f"no preview: {computation.message.rstrip('.')}; the evaluation follows"
-        )
+        message = computation.message.rstrip(".")
+        raise UnreachedError(f"no preview: {message}; the evaluation follows")
+    found, mesh = evaluation_of(computation), computation.finest.problem.mesh
     nearest = anchors.nearest(design)
-    found = evaluation_of(computation)
-    mesh = computation.finest.problem.mesh
-    if nearest is None:
+    if nearest is None or nearest.anchor.model is not UNIT_CELL:
         return Coarse(found, mesh, "the unit cell on a coarse mesh, without the ends")
     how = "the unit cell on a coarse mesh; ends and mesh error from an earlier design"
-    return Coarse(_corrected(found, computation, nearest.anchor), mesh, how)
+    state, taken_over = _completed(found, nearest)
+    anchors.add_provisional(found, taken_over)
+    return Coarse(state, mesh, how)
 
 
-def _corrected(found: Evaluation, computation: Computation, before: Evaluation) -> Evaluation:
-    """With what finer meshes and ends made of another design."""
-    if before.model is not UNIT_CELL:
-        return found
-    carried, former = Carried.of(before), before.computation
-    turned = former.finest.path[-1].rotation / former.solutions[0].path[-1].rotation
-    stressed = former.peaks[-1].value / former.peaks[0].value
-    angle = found.bending_angle_deg * turned + carried.angle
-    return replace(
+def _completed(found: Evaluation, nearest: LightNeighbourhood) -> tuple[Evaluation, TakenOver]:
+    """With what finer meshes and ends made of another design, and that."""
+    more = nearest.taken_over
+    angle = found.bending_angle_deg * more.rotation + more.ends.angle
+    errors = _errors(nearest, more.ends, angle)
+    state = replace(
         found,
         bending_angle_deg=angle,
-        max_von_mises_mpa=found.max_von_mises_mpa * stressed * carried.stress,
-        cavity_volume_mm3=found.cavity_volume_mm3 + carried.volume,
-        error_estimate=ErrorEstimate(
-            _percent(abs(turned - 1), carried.angle_error, angle),
-            100 * (abs(stressed - 1) + (carried.stress_error or 0.0) + OTHER_FACES),
-        ),
+        max_von_mises_mpa=found.max_von_mises_mpa * more.stress,
+        cavity_volume_mm3=found.cavity_volume_mm3 * more.volume + more.ends.volume,
+        error_estimate=errors,
+    )
+    return state, replace(more, errors=errors)
+
+
+def _errors(nearest: LightNeighbourhood, ends: Carried, angle: float) -> ErrorEstimate:
+    """Those of the other design, what it took over, and what other faces may make."""
+    more, former = nearest.taken_over, nearest.taken_over.errors
+    if former is not None:  # itself a coarse mesh: its errors hold all that
+        return former
+    turned, stressed = abs(more.rotation - 1), abs(more.stress - 1)
+    return ErrorEstimate(
+        _percent(turned, ends.angle_error, angle),
+        100 * (stressed + (ends.stress_error or 0.0) + OTHER_FACES),
     )
 
 

@@ -1,6 +1,7 @@
 """Designs near to an evaluated one on its coarsest mesh: a fifth of the time of its finest.
 
-What the finer meshes changed at the evaluated design is taken over in proportion.
+What the finer meshes changed at the evaluated design is taken over in proportion, the ends as they
+are. A coarse mesh alone is a start as well: it takes over what was found for another design.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from bellows_design.analysis.error_estimate import ErrorEstimate
 from bellows_design.analysis.models import UNIT_CELL
 from bellows_design.design.design import Design
 from bellows_design.neighbours.bubbles import counts_alike, of_count, with_bubbles
-from bellows_design.neighbours.carried import Carried
+from bellows_design.neighbours.carried import ANGLE_GROWTH, STRESS_GROWTH, Carried
 from bellows_design.neighbours.neighbourhood import Neighbourhood
 from bellows_design.studio.workers.reporting import Report
 
@@ -33,24 +34,46 @@ value, for taking over what the finer meshes changed."""
 
 
 @dataclass(frozen=True)
-class Ratios:
-    """What the finest mesh finds over what the coarsest finds, at the evaluated design."""
+class TakenOver:
+    """What a coarse mesh of the cell lacks, as it was found for another design.
+
+    ``rotation``, ``volume`` and ``stress`` are the finest mesh's over the coarsest's; ``ends`` what
+    root and tip add; ``errors`` of the design that is started from, None where they are carried.
+    """
 
     rotation: float
     volume: float
     stress: float
+    ends: Carried
+    errors: ErrorEstimate | None = None
+
+    @staticmethod
+    def of(anchor: Evaluation, coarse: NeighbourEvaluation, ends: Carried) -> TakenOver:
+        """From an ordinary evaluation and the same design on its coarsest mesh."""
+        exact, rough = anchor.computation.finest.path[-1], coarse.solution.path[-1]
+        return TakenOver(
+            _ratio(exact.rotation, rough.rotation),
+            _ratio(exact.volume, rough.volume),
+            _ratio(anchor.max_von_mises_mpa, coarse.max_von_mises_mpa / ends.stress),
+            replace(ends, stress=1.0),
+        )
 
 
 class LightNeighbourhood:
-    """A neighbourhood of an ordinary evaluation on its coarsest mesh."""
+    """A neighbourhood of an evaluation on its coarsest mesh."""
 
-    def __init__(self, anchor: Evaluation) -> None:
-        """Raises ``DesignError`` if the evaluation did not reach its pressure, or is void."""
-        self.anchor = anchor
+    def __init__(
+        self, anchor: Evaluation, taken_over: TakenOver | None = None, provisional: bool = False
+    ) -> None:
+        """``provisional``: of a coarse mesh alone; then what it lacks must be given.
+
+        Raises ``DesignError`` if the evaluation did not reach its pressure, or is void.
+        """
+        self.anchor, self.provisional = anchor, provisional
         computation = replace(anchor.computation, solved=anchor.computation.solved[:1])
         self._near = Neighbourhood(replace(anchor, computation=computation))
-        self._carried = Carried.of(self._near.anchor)
-        self._ratios = self._measured()
+        self._own = Carried.of(self._near.anchor)
+        self.taken_over = taken_over or self._measured()
         self._assemblies: dict[int, Assembly] = {}
 
     def distance(self, design: Design) -> float:
@@ -63,7 +86,7 @@ class LightNeighbourhood:
         alike = self._alike(design)
         assert alike is not None
         found = self._near.continued(alike, report, reach=FAR, halvings=HALVINGS)
-        return with_bubbles(self._refined(found), design)
+        return with_bubbles(self._completed(found), design)
 
     def surface(self, found: NeighbourEvaluation) -> SurfaceFrames:
         """The whole finger at rest and deformed."""
@@ -76,31 +99,34 @@ class LightNeighbourhood:
             self._assemblies[count] = Assembly.of(counted)
         return self._assemblies[count].surface(found)
 
-    def _measured(self) -> Ratios:
+    def _measured(self) -> TakenOver:
         """The coarsest mesh's own solution is a rough one: it is solved again."""
-        fine, anchor = self.anchor.computation, self.anchor
-        coarse = self._near.continued(anchor.design)
-        rough, exact = coarse.solution.path[-1], fine.finest.path[-1]
-        return Ratios(
-            _ratio(exact.rotation, rough.rotation),
-            _ratio(exact.volume, rough.volume),
-            _ratio(anchor.max_von_mises_mpa, coarse.max_von_mises_mpa),
-        )
+        coarse = self._near.continued(self.anchor.design)
+        return TakenOver.of(self.anchor, coarse, self._own)
 
-    def _refined(self, found: NeighbourEvaluation) -> NeighbourEvaluation:
-        """With what finer meshes make of it."""
-        carried, ratios = self._carried, self._ratios
-        errors, grown = found.error_estimate, 100 * COARSE_GROWTH * found.distance
-        cells, air = found.bending_angle_deg - carried.angle, found.cavity_volume_mm3
+    def _completed(self, found: NeighbourEvaluation) -> NeighbourEvaluation:
+        """With what finer meshes and ends make of it."""
+        more, own = self.taken_over, self._own
+        cells, air = found.bending_angle_deg - own.angle, found.cavity_volume_mm3 - own.volume
         return replace(
             found,
-            bending_angle_deg=ratios.rotation * cells + carried.angle,
-            cavity_volume_mm3=ratios.volume * (air - carried.volume) + carried.volume,
-            max_von_mises_mpa=ratios.stress * found.max_von_mises_mpa,
-            error_estimate=ErrorEstimate(
-                _grown(errors.bending_angle_percent, grown),
-                _grown(errors.max_von_mises_percent, grown),
-            ),
+            bending_angle_deg=more.rotation * cells + more.ends.angle,
+            cavity_volume_mm3=more.volume * air + more.ends.volume,
+            max_von_mises_mpa=more.stress * found.max_von_mises_mpa / own.stress,
+            error_estimate=self._errors(found),
+        )
+
+    def _errors(self, found: NeighbourEvaluation) -> ErrorEstimate:
+        errors, given = found.error_estimate, self.taken_over.errors
+        far = 100 * found.distance
+        if given is None:
+            angle, stress = errors.bending_angle_percent, errors.max_von_mises_percent
+            return ErrorEstimate(
+                _more(angle, COARSE_GROWTH * far), _more(stress, COARSE_GROWTH * far)
+            )
+        return ErrorEstimate(
+            _more(given.bending_angle_percent, (ANGLE_GROWTH + COARSE_GROWTH) * far),
+            _more(given.max_von_mises_percent, (STRESS_GROWTH + COARSE_GROWTH) * far),
         )
 
     def _alike(self, design: Design) -> Design | None:
@@ -117,5 +143,5 @@ def _ratio(exact: float, rough: float) -> float:
     return exact / rough if rough else 1.0
 
 
-def _grown(percent: float | None, more: float) -> float | None:
+def _more(percent: float | None, more: float) -> float | None:
     return None if percent is None else percent + more

@@ -32,6 +32,7 @@ class Lanes:
     background: Lane = field(default_factory=lambda: Lane(f"{TASKS}.background", spare=True))
     cells: list[Callable[[], Job]] = field(default_factory=list)
     anchors: list[Callable[[], Job]] = field(default_factory=list)
+    warmed: bool = False
 
     def start(self) -> None:
         """Start a process for each lane in advance."""
@@ -61,6 +62,12 @@ class Lanes:
         make = _maker("anchor", content, {}, listener)
         self.anchors[:] = [*self.anchors, make][-MOST_REMEMBERED:]
         return self.preview.submit(make())
+
+    def warm(self) -> None:
+        """Once the first preview is there, let its process load what others may need."""
+        if not self.warmed:
+            self.warmed = True
+            self.preview.submit(Job(SERVER, "warm", "warm", {}))
 
     def close(self) -> None:
         """End all processes."""

@@ -136,6 +136,7 @@ class Session:
         outcome, why = await self._submit(self._lanes.preview, "preview", "preview", {}).outcome
         if outcome in ("failed", "crashed"):
             self._send("working", self._revision, what="preview", message=why, fraction=None)
+        self._lanes.warm()
         for stage in STAGES:
             job = self._submit(self._lanes.background, stage, stage, {})
             outcome, why = await job.outcome

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterator
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from bellows_design.analysis.models import UNIT_CELL
@@ -39,7 +40,16 @@ def tasks() -> dict[str, Task]:
     return {
         "preview": lambda values, _, report: _told(_preview, anchors, values, report),
         "anchor": lambda values, _, report: _told(_anchor, anchors, values, report),
+        "warm": lambda _, __, ___: _warm(),
     }
+
+
+def _warm() -> None:
+    """Load CAD and Gmsh, which a solve by itself needs, before one is asked for."""
+    from solver.meshing import process
+
+    process.start()
+    import_module("bellows_design.geometry.actuator")
 
 
 def _told(work: Callable[..., None], anchors: Anchors, values: Values, report: Report) -> None:

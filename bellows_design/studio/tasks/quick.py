@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from bellows_design.design.overrides import renamed_if_changed
 from bellows_design.errors import BellowsError
 from bellows_design.studio.choices.changed import changed, design_of_text, opened_text, problems
 from bellows_design.studio.choices.parameters import current_values, sliders
@@ -153,5 +154,6 @@ def _toml(values: Values, _: Values, report: Report) -> None:
     """The design as a file."""
     from bellows_design.studio.choices.saving import toml_text
 
-    design = changed(design_of_text(values["base"]), values["values"])
+    base = design_of_text(values["base"])
+    design = renamed_if_changed(changed(base, values["values"]), base)
     report("toml", name=design.name, text=toml_text(design), digest=design.digest)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from itertools import count
 from typing import Any, Literal
@@ -160,7 +161,7 @@ class Lane:
         loop = asyncio.get_running_loop()
 
         def heard(message: Message | None) -> None:
-            if not loop.is_closed():
+            with suppress(RuntimeError):  # the loop has ended, and with it the studio
                 loop.call_soon_threadsafe(self._heard, process, message)
 
         process = Handle(self._tasks, heard)

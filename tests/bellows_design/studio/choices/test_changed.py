@@ -135,6 +135,20 @@ def test_a_page_opens_no_files_of_materials_and_printers(tmp_path: Path) -> None
             opened_text(text)
 
 
+@pytest.mark.parametrize(
+    "printer",
+    [
+        {"name": "x", "extends": "/etc/passwd"},
+        {"name": "x", "extends": "secret.toml"},
+        {"name": "x", "extends": "prusa_i3", "filament": "../secret.toml"},
+        {"name": "x", "extends": "prusa_i3", "filament": {"extends": "C:\\secret"}},
+    ],
+)
+def test_nor_does_a_table_lead_to_a_file(printer: dict[str, Any]) -> None:
+    with pytest.raises(DesignError, match="names and tables"):
+        changed(BASE, {"printer": printer})
+
+
 @pytest.mark.parametrize("text", ["", "x = ", "a" * 10 + "=[" * 5000, "name = 'a'\n" + "." * 500])
 def test_text_that_is_no_design_is_refused_in_sentences(text: str) -> None:
     with pytest.raises(DesignError) as refused:
