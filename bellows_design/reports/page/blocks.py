@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, ClassVar, Literal
 
 if TYPE_CHECKING:
     from bellows_design.reports.page.drawing.marks import Drawing
-    from bellows_design.web.charts import Chart
+    from bellows_design.reports.page.curves.chart import BarChart, Chart
     from bellows_design.web.scene import Shown
 
 Tone = Literal["", "good", "info", "warn", "bad", "muted"]
@@ -21,7 +21,7 @@ Tone = Literal["", "good", "info", "warn", "bad", "muted"]
 class Sentences:
     """Paragraphs of one tone."""
 
-    template: ClassVar[str] = "sentences.html.j2"
+    template: ClassVar[str] = "sentences.html"
 
     texts: tuple[str, ...]
     tone: Tone = ""
@@ -42,7 +42,7 @@ class Fact:
 class Facts:
     """Values by their names."""
 
-    template: ClassVar[str] = "facts.html.j2"
+    template: ClassVar[str] = "facts.html"
 
     rows: tuple[Fact, ...]
 
@@ -58,20 +58,20 @@ class Cell:
 
 @dataclass(frozen=True)
 class Grid:
-    """A table; a narrow page scrolls it by itself. ``folded`` is closed until it is clicked."""
+    """A table; a narrow page scrolls it by itself."""
+
+    template: ClassVar[str] = "grid.html"
 
     headings: tuple[Cell, ...]
     rows: tuple[tuple[Cell, ...], ...]
     caption: str = ""
-
-    template: ClassVar[str] = "grid.html.j2"
 
 
 @dataclass(frozen=True)
 class Folded:
     """Blocks that are shown on demand, below a line that names them."""
 
-    template: ClassVar[str] = "folded.html.j2"
+    template: ClassVar[str] = "folded.html"
 
     title: str
     blocks: tuple[Block, ...]
@@ -81,7 +81,7 @@ class Folded:
 class Steps:
     """What is done one after the other: in words, with the reason."""
 
-    template: ClassVar[str] = "steps.html.j2"
+    template: ClassVar[str] = "steps.html"
 
     steps: tuple[tuple[str, str], ...]
 
@@ -90,7 +90,7 @@ class Steps:
 class Heading:
     """A line above what follows within a section."""
 
-    template: ClassVar[str] = "heading.html.j2"
+    template: ClassVar[str] = "heading.html"
 
     text: str
 
@@ -99,7 +99,7 @@ class Heading:
 class Picture:
     """A drawing or chart with a sentence on it."""
 
-    content: Drawing | Chart
+    content: Drawing | Chart | BarChart
     caption: str = ""
 
 
@@ -107,7 +107,7 @@ class Picture:
 class Pictures:
     """Pictures beside each other, as far as the page is wide enough."""
 
-    template: ClassVar[str] = "pictures.html.j2"
+    template: ClassVar[str] = "pictures.html"
 
     pictures: tuple[Picture, ...]
 
@@ -116,20 +116,21 @@ class Pictures:
 class Space:
     """Surfaces to turn around; the named ``field`` colours them at first."""
 
-    template: ClassVar[str] = "space.html.j2"
+    template: ClassVar[str] = "space.html"
 
     surfaces: tuple[Shown, ...]
     caption: str
     label: str
     field: str = ""
     height: int = 440
+    frame: int = 0
 
 
 @dataclass(frozen=True, eq=False)
 class Layers:
     """The layer view of a leak test: markup of ``web.layers``."""
 
-    template: ClassVar[str] = "layers.html.j2"
+    template: ClassVar[str] = "layers.html"
 
     view: object
     caption: str

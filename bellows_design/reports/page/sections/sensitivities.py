@@ -16,8 +16,9 @@ from bellows_design.reports.page.blocks import (
     Section,
     Sentences,
 )
-from bellows_design.reports.page.drawing.bars import bars
+from bellows_design.reports.page.curves.chart import BarChart
 from bellows_design.reports.page.wording import capitalised, headings, number
+from bellows_design.web.charts import Bar
 from bellows_design.reports.sensitivities import COLUMNS, notes_on, strongest_first
 
 if TYPE_CHECKING:
@@ -59,11 +60,18 @@ def _sentences(rows: list[Sensitivity]) -> Iterator[str]:
 
 
 def _pictures(rows: list[Sensitivity]) -> Iterator[Picture]:
-    for key, name, colour in ((ANGLE, "bending angle", "first"), (STRESS, "highest stress", "second")):
-        values = [(row.parameter, row.elasticities[key]) for row in rows]
-        title = f"Change of the {name}, % per + 1 % of each number"
-        known = [(parameter, value) for parameter, value in values if value is not None]
-        yield Picture(bars(known, title, colour), title)
+    for key, name in ((ANGLE, "bending angle"), (STRESS, "highest stress")):
+        known = tuple(_bars(rows, key))
+        if known:
+            title = f"Change of the {name} for + 1 % of each number"
+            yield Picture(BarChart(title, f"{name}, % for + 1 %", known), title)
+
+
+def _bars(rows: list[Sensitivity], key: str) -> Iterator[Bar]:
+    for row in rows:
+        value = row.elasticities[key]
+        if value is not None:
+            yield Bar(row.parameter, value)
 
 
 def _table(rows: list[Sensitivity]) -> Grid:
