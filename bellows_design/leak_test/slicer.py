@@ -57,4 +57,5 @@ def tested(slicer: Slicer, design: Design, mesh: ClosedMesh) -> LeakOutcome:
         rules=found.leaks.rules,
         figures=found.leaks.figures() | {"notes": list(found.notes)},
         seconds=time.perf_counter() - started,
+        view=found.leaks.view,
     )
