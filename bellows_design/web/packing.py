@@ -58,8 +58,8 @@ class Arrays:
         Returns its place, its number of numbers and the bytes of each.
         """
         differences = np.diff(numbers, axis=-2, prepend=numbers[..., :1, :] * 0)
-        planes = np.ascontiguousarray(differences).view(np.uint8)
-        planes = planes.reshape(-1, numbers.itemsize).T.tobytes()
+        as_bytes = np.ascontiguousarray(differences).view(np.uint8)
+        planes = as_bytes.reshape(-1, numbers.itemsize).T.tobytes()
         place = {"offset": self._length, "count": numbers.size, "bytes": numbers.itemsize}
         self._parts.append(planes)
         self._length += len(planes)
