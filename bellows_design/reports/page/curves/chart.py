@@ -7,6 +7,10 @@ from dataclasses import dataclass
 from bellows_design.web.charts import Bar, Limit, Line, Mark, bar_chart, line_chart
 
 
+ROOM = 1.2
+"""Of the largest value: as far as an axis reaches."""
+
+
 @dataclass(frozen=True)
 class Chart:
     """Curves over common axes; ``shaded`` are ranges of x."""
@@ -18,7 +22,7 @@ class Chart:
     limits: tuple[Limit, ...] = ()
     marks: tuple[Mark, ...] = ()
     shaded: tuple[tuple[float, float], ...] = ()
-    from_zero: bool = False
+    y_bounds: tuple[float, float] | None = None
 
     def svg(self) -> str:
         """As an element of a page."""
@@ -30,8 +34,13 @@ class Chart:
             limits=self.limits,
             marks=self.marks,
             shaded=self.shaded,
-            y_zero=self.from_zero,
+            y_bounds=self.y_bounds,
         )
+
+
+def from_zero(*values: float) -> tuple[float, float]:
+    """Bounds of an axis from zero to a little above the largest value, with room for a label."""
+    return 0.0, ROOM * max((value for value in values if value > 0), default=1.0)
 
 
 @dataclass(frozen=True)

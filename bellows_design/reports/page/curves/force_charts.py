@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
-from bellows_design.reports.page.curves.chart import Chart
+from bellows_design.reports.page.curves.chart import Chart, from_zero
 from bellows_design.web.charts import Line, Mark
 
 if TYPE_CHECKING:
@@ -20,14 +20,16 @@ def force_chart(found: ForceCurve) -> Chart:
     )
     line = _line(found.curve, lambda each: each.pressure_mpa)
     title = f"Force in the scene {found.scene}"
-    return Chart(title, "pressure, MPa", "force, N", (line,), marks=marks, from_zero=True)
+    bounds = from_zero(*line.high)
+    return Chart(title, "pressure, MPa", "force, N", (line,), marks=marks, y_bounds=bounds)
 
 
 def by_distance_chart(found: ForceCurve) -> Chart:
     """Force against the distance of the support at the last pressure."""
     line = _line(found.by_distance, lambda each: each.distance_mm or 0.0)
     title = f"Force in the scene {found.scene} over the distance of its support"
-    return Chart(title, "distance of the support, mm", "force, N", (line,), from_zero=True)
+    bounds = from_zero(*line.high)
+    return Chart(title, "distance of the support, mm", "force, N", (line,), y_bounds=bounds)
 
 
 def _line(readings: Sequence[ForceReading], across: Callable[[ForceReading], float]) -> Line:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
-from bellows_design.reports.page.curves.chart import Chart
+from bellows_design.reports.page.curves.chart import Chart, from_zero
 from bellows_design.web.charts import Limit, Line, Mark
 
 if TYPE_CHECKING:
@@ -34,15 +34,15 @@ def stress_chart(found: Evaluation) -> Chart:
     """Highest von Mises stress against pressure, and its limit."""
     percent = found.error_estimate.max_von_mises_percent
     line = _line("highest stress", found, lambda each: each.max_von_mises_mpa, percent)
-    stress = found.max_von_mises_mpa
+    limits = tuple(_stress_limits(found))
+    highest = from_zero(*line.y, *line.high, *(each.value for each in limits))
     return Chart(
         "Highest von Mises stress against pressure",
         "pressure, MPa",
         "highest von Mises stress, MPa",
         (line,),
-        (*_stress_limits(found), *_events(found)),
-        (Mark(found.pressure_mpa, stress, f"{stress:.2f} MPa"),),
-        from_zero=True,
+        (*limits, *_events(found)),
+        y_bounds=highest,
     )
 
 

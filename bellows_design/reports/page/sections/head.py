@@ -67,7 +67,8 @@ def _figures(found: Outcome) -> Iterator[Fact]:
     yield Fact(
         "Print time", f"over {printed.least_hours:.1f} h", note="plastic alone, without travels"
     )
-    yield Fact("Size as it stands", f"{x:.1f} × {y:.1f} × {z:.1f} mm")
+    size = " × ".join(f"{round(each, 1):g}" for each in (x, y, z))
+    yield Fact("Size", size, note="mm, as it stands on the bed")
 
 
 def _computed(found: Outcome, evaluation: Evaluation) -> Iterator[Fact]:

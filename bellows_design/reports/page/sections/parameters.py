@@ -10,7 +10,6 @@ from bellows_design.reports.page.blocks import (
     Block,
     Cell,
     Grid,
-    Heading,
     Picture,
     Pictures,
     Section,
@@ -38,31 +37,27 @@ def parameters(findings: Findings) -> Section:
 
 
 def _tables(design: Design) -> Iterator[Block]:
-    named: tuple[tuple[str, str, Parameters | None], ...] = (
-        ("Bellows", "", design.bellows),
-        ("Indent", "indent.", design.indent),
-        ("Port", "port.", design.port),
-        ("Mount", "mount.", design.mount),
-        ("Fingertip", "fingertip.", design.fingertip),
-        ("Load", "load.", design.load),
-        ("Limits", "limits.", design.limits),
+    named: tuple[tuple[str, Parameters | None], ...] = (
+        ("", design.bellows),
+        ("indent.", design.indent),
+        ("port.", design.port),
+        ("mount.", design.mount),
+        ("fingertip.", design.fingertip),
+        ("load.", design.load),
+        ("limits.", design.limits),
     )
-    for title, prefix, table in named:
-        if table is not None:
-            yield Heading(title)
-            yield _table(prefix, table)
+    rows = [row for prefix, table in named if table is not None for row in _rows(prefix, table)]
+    yield Grid(headings(*TITLES, right=("value",)), tuple(rows))
     if design.indent is None:
         yield Sentences(("The design has no indent.",), "muted")
 
 
-def _table(prefix: str, table: Parameters) -> Grid:
-    rows = []
+def _rows(prefix: str, table: Parameters) -> Iterator[tuple[Cell, ...]]:
     for name, field in type(table).model_fields.items():
-        value = getattr(table, name)
         extra = field.json_schema_extra
         unit = str(extra.get("unit", "")) if isinstance(extra, dict) else ""
-        rows.append((Cell(f"{prefix}{name}"), number(_text(table, name, value)), Cell(unit), Cell(field.description or "")))
-    return Grid(headings(*TITLES, right=("value",)), tuple(rows))
+        value = _text(table, name, getattr(table, name))
+        yield Cell(f"{prefix}{name}"), number(value), Cell(unit), Cell(field.description or "")
 
 
 def _text(table: Parameters, name: str, value: object) -> str:

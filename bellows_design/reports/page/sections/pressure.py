@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from bellows_design.reports.evaluation import contact_text, place_text, strains_text
@@ -38,10 +38,12 @@ def pressure(findings: Findings) -> Section:
     if found is None:
         why = Sentences(("There is no curve: the design was refused before the evaluation.",))
         return Section("pressure", title, (why,))
-    return Section("pressure", title, tuple(_blocks(found)))
+    told = findings.outcome.verdict.warnings
+    return Section("pressure", title, tuple(_blocks(found, told)))
 
 
-def _blocks(found: Evaluation) -> Iterator[Block]:
+def _blocks(found: Evaluation, told: Sequence[str]) -> Iterator[Block]:
+    """What was found; warnings that were ``told`` on top are not repeated."""
     if not found.converged:
         yield Sentences((capitalised(found.message or "the load was not reached"),), "bad")
     if len(found.path) > 1:
@@ -59,8 +61,9 @@ def _blocks(found: Evaluation) -> Iterator[Block]:
             "muted",
         )
     yield Facts(tuple(_facts(found)))
-    if found.warnings:
-        yield Sentences(tuple(map(capitalised, found.warnings)), "warn")
+    warnings = tuple(capitalised(each) for each in found.warnings if each not in told)
+    if warnings:
+        yield Sentences(warnings, "warn")
     if len(found.path) > 1:
         yield Folded("The numbers", (_table(found),))
 

@@ -17,10 +17,10 @@ from bellows_design.reports.page.drawing.marks import (
 from bellows_design.reports.page.sketch.dimension import Callout, Dimension, Place, Side, View
 from bellows_design.reports.page.sketch.placing import Placed, Span, placed
 
-ROW = 20.0
+ROW = 21.0
 """px, from dimension line to dimension line."""
 
-FIRST_ROW = 20.0
+FIRST_ROW = 21.0
 """px, from the part to the first."""
 
 ARROW = 4.0
@@ -148,7 +148,7 @@ def _dimension(
 def _label(dimension: Dimension, place: Placed, point: object, at: float, upright: bool) -> Text:
     middle = (place.start + place.end) / 2
     on_line = place.span.low <= middle <= place.span.high
-    lift = -3.0 if on_line else 0.33 * TEXT_HEIGHT
+    lift = -4.5 if on_line else 0.33 * TEXT_HEIGHT
     if upright:
         return Text((at + lift, -middle), dimension.label, "middle", True)
     return Text((middle, at + lift), dimension.label)

@@ -1,40 +1,54 @@
-"""A triangle mesh with no edge longer than asked for; neighbours keep sharing their edges."""
+"""A triangle mesh refined where it must be; neighbours keep sharing their edges."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
+from printers.arrays import Flags
 from solver.arrays import Integers, Reals
 
-MOST_PASSES = 12
-"""Each halves what is too long: enough for 4000 times the length."""
+Wanted = Callable[[Reals, Integers, Integers], Flags]
+"""Of vertices (n, 3), triangles (m, 3) and their origins (m,): which edges (m, 3), each from a
+corner to the next, are to be halved."""
 
 
 def refined(
-    vertices: Reals, triangles: Integers, longest: float
+    vertices: Reals, triangles: Integers, wanted: Wanted, passes: int
 ) -> tuple[Reals, Integers, Integers]:
     """Vertices (n, 3), triangles (m, 3), and of which triangle each is a part (m,).
 
-    Every edge longer than ``longest`` is halved, until there is none.
+    Edges that are ``wanted`` are halved, in all triangles that share them, again and again until
+    there is none, or for so many ``passes``.
     """
     origin = np.arange(len(triangles))
-    for _ in range(MOST_PASSES):
+    for _ in range(passes):
         edges, numbers = _edges(triangles)
-        long = np.linalg.norm(np.diff(vertices[edges], axis=1)[:, 0], axis=1) > longest
-        if not long.any():
+        chosen = np.zeros(len(edges), dtype=bool)
+        chosen[numbers[wanted(vertices, triangles, origin)]] = True
+        if not chosen.any():
             break
         middles = np.full(len(edges), -1)
-        middles[long] = len(vertices) + np.arange(long.sum())
-        vertices = np.concatenate([vertices, vertices[edges[long]].mean(axis=1)])
+        middles[chosen] = len(vertices) + np.arange(chosen.sum())
+        vertices = np.concatenate([vertices, vertices[edges[chosen]].mean(axis=1)])
         triangles, parents = _split(triangles, middles[numbers])
         origin = origin[parents]
     return vertices, triangles, origin
 
 
+def edge_lengths(vertices: Reals, triangles: Integers) -> Reals:
+    """Lengths (m, 3) of the edges from each corner to the next."""
+    corners = vertices[triangles]
+    return np.asarray(np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=2))
+
+
 def _edges(triangles: Integers) -> tuple[Integers, Integers]:
     """Edges (k, 2), and the numbers (m, 3) of those from each corner to the next."""
-    pairs = np.stack([triangles, np.roll(triangles, -1, axis=1)], axis=2)
-    edges, numbers = np.unique(np.sort(pairs.reshape(-1, 2), axis=1), axis=0, return_inverse=True)
+    ends = np.sort(np.stack([triangles, np.roll(triangles, -1, axis=1)], axis=2), axis=2)
+    size = int(triangles.max()) + 1
+    keys, numbers = np.unique(ends[:, :, 0] * size + ends[:, :, 1], return_inverse=True)
+    edges = np.stack([keys // size, keys % size], axis=1)
     return edges, numbers.reshape(triangles.shape)
 
 

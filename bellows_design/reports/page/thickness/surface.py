@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bellows_design.reports.page.thickness.refining import refined
+from bellows_design.reports.page.thickness.refining import edge_lengths, refined
+from printers.arrays import Flags
 from solver.arrays import Integers, Reals
 
 if TYPE_CHECKING:
@@ -19,7 +20,11 @@ SMOOTH = 0.9
 """Cosine of the angle between neighbours up to which colours run on over their edge."""
 
 EDGES = 5.0
-"""So many edges of the shown mesh span the part, whatever its size."""
+"""So many edges of the shown mesh span the part at least, whatever its size."""
+
+FINEST, STEP, PASSES = 60.0, 0.2, 5
+"""Where the thickness changes along an edge by more than this ``STEP`` of the largest that is
+shown, edges are halved: down to so many across the part, in so many passes."""
 
 TURN = 2.0
 """mm that count as far as opposite normals: the two sides of a thin wall are kept apart."""
@@ -47,15 +52,48 @@ class ThicknessMap:
 
 def thickness_map(design: Design, mesh: ClosedMesh) -> ThicknessMap:
     """The local thickness below the printed surface, as the printer's rules measure it."""
-    found, reach = _measured(design, mesh)
-    extent = float(np.ptp(mesh.vertices, axis=0).max())
-    patches = _patches(mesh.vertices, mesh.triangles)
-    vertices, triangles, origin = refined(mesh.vertices, mesh.triangles, extent / EDGES)
-    keys = np.stack([triangles, np.broadcast_to(patches[origin, None], triangles.shape)], axis=2)
-    points, corners = np.unique(keys.reshape(-1, 2), axis=0, return_inverse=True)
-    corners, places = corners.reshape(triangles.shape), vertices[points[:, 0]]
-    values = _at_points(found, places, _point_normals(places, corners), reach)
-    return ThicknessMap(corners, places, values, reach)
+    survey = _Survey.of(design, mesh)
+    vertices, triangles, origin = refined(mesh.vertices, mesh.triangles, survey.wanted, PASSES)
+    places, corners, values = survey.values(vertices, triangles, origin)
+    return ThicknessMap(corners, places, values, survey.reach)
+
+
+@dataclass(frozen=True, eq=False)
+class _Survey:
+    """Samples of the thickness, and the smooth patches (m,) of the mesh's triangles."""
+
+    found: LocalThickness
+    reach: float
+    patches: Integers
+    extent: float
+
+    @staticmethod
+    def of(design: Design, mesh: ClosedMesh) -> _Survey:
+        """Measured on the part's mesh."""
+        extent = float(np.ptp(mesh.vertices, axis=0).max())
+        patches = _patches(mesh.vertices, mesh.triangles)
+        return _Survey(*_measured(design, mesh), patches, extent)
+
+    def wanted(self, vertices: Reals, triangles: Integers, origin: Integers) -> Flags:
+        """Edges (m, 3) that are long, or along which the thickness changes much."""
+        _, corners, values = self.values(vertices, triangles, origin)
+        at = np.nan_to_num(values, nan=self.reach)[corners]
+        changes = np.abs(np.roll(at, -1, axis=1) - at) > STEP * self.reach
+        lengths = edge_lengths(vertices, triangles)
+        return np.asarray(
+            (lengths > self.extent / EDGES) | (changes & (lengths > self.extent / FINEST))
+        )
+
+    def values(
+        self, vertices: Reals, triangles: Integers, origin: Integers
+    ) -> tuple[Reals, Integers, Reals]:
+        """Points (n, 3), one for each patch at a vertex, triangles (m, 3), and thicknesses (n,)."""
+        size = int(self.patches.max()) + 1
+        keys = triangles * size + self.patches[origin, None]
+        points, corners = np.unique(keys, return_inverse=True)
+        corners, places = corners.reshape(triangles.shape), vertices[points // size]
+        normals = _point_normals(places, corners)
+        return places, corners, _at_points(self.found, places, normals, self.reach)
 
 
 def _measured(design: Design, mesh: ClosedMesh) -> tuple[LocalThickness, float]:
@@ -97,10 +135,10 @@ def _patches(vertices: Reals, triangles: Integers) -> Integers:
 
 def _point_normals(places: Reals, triangles: Integers) -> Reals:
     """Unit normals (n, 3) at points, the mean of their triangles' by area."""
-    across, total = _across(places[triangles]), np.zeros_like(places)
-    for corner in triangles.T:
-        np.add.at(total, corner, across)
-    return total / np.maximum(np.linalg.norm(total, axis=1, keepdims=True), 1e-300)
+    across, corners = np.repeat(_across(places[triangles]), 3, axis=0), triangles.ravel()
+    count = len(places)
+    total = np.stack([np.bincount(corners, each, count) for each in across.T], axis=1)
+    return np.asarray(total / np.maximum(np.linalg.norm(total, axis=1, keepdims=True), 1e-300))
 
 
 def _across(corners: Reals) -> Reals:
