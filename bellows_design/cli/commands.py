@@ -52,6 +52,7 @@ from bellows_design.cli.options import (
     Meshes,
     MeshSeconds,
     NoCache,
+    NoReport,
     Pressure,
     Printer,
     Quick,
@@ -65,6 +66,7 @@ from bellows_design.cli.options import (
     WithSettings,
     YieldStrength,
 )
+from bellows_design.cli.reporting.command import report
 from bellows_design.cli.studies.optimize_command import optimize
 from bellows_design.cli.study import study
 from bellows_design.cli.templates import Kind
@@ -81,6 +83,7 @@ app.add_typer(study, name="study")
 app.command()(optimize)
 app.command()(force)
 app.command()(compare)
+app.command()(report)
 
 
 @app.callback(invoke_without_command=True)
@@ -192,13 +195,14 @@ def run(
     memory: Memory = None,
     mesh_seconds: MeshSeconds = None,
     seconds: TimeLimit = None,
+    no_report: NoReport = False,
     no_cache: NoCache = False,
     as_json: AsJson = False,
 ) -> None:
     """Design, check, evaluate, decide, and export what is approved."""
     options = DesignOptions(name, tuple(settings or ()), printer)
     limits = BudgetOptions(memory, mesh_seconds, seconds)
-    answer(lambda: actions.run(options, output, limits, not no_cache), as_json)
+    answer(lambda: actions.run(options, output, limits, not no_cache, not no_report), as_json)
 
 
 @app.command()

@@ -82,6 +82,9 @@ NoCache = Annotated[
     bool,
     typer.Option("--no-cache", help="Compute anew, and keep nothing: see bellows cache."),
 ]
+NoReport = Annotated[
+    bool, typer.Option("--no-report", help="Make no report beside the approved files.")
+]
 Meshes = Annotated[
     int | None,
     typer.Option(metavar="N", help="Meshes of each; without it one more than evaluate uses."),

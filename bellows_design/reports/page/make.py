@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING
 
-from bellows_design.reports.page.findings import Findings, findings_of
+from bellows_design.reports.page.findings import FEW_FRAMES, Findings, findings_of
 
 if TYPE_CHECKING:
     from bellows_design.pipeline import Outcome
@@ -17,13 +17,16 @@ LARGEST = 8_000_000
 
 
 def run_report(outcome: Outcome, files: Mapping[str, bytes]) -> bytes:
-    """The report beside the ``files`` of an export: what a run found out, and their hashes."""
+    """The report beside the ``files`` of an export: what a run found out, and their hashes.
+
+    Without sensitivities and with few frames, so that it takes a small part of the run's time.
+    """
     from dataclasses import replace
 
     from bellows_design.export.manifest import fingerprint
 
     prints = {name: fingerprint(content) for name, content in sorted(files.items())}
-    return report_html(replace(findings_of(outcome), files=prints))
+    return report_html(replace(findings_of(outcome, derivatives=False, frames=FEW_FRAMES), files=prints))
 
 
 def report_html(findings: Findings) -> bytes:

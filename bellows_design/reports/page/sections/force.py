@@ -32,7 +32,7 @@ NONE_ASKED = (
 
 def force(findings: Findings) -> Section:
     """Every scene that the design must hold, or that was asked for."""
-    blocks = [block for each in findings.scenes for block in _scene(each)]
+    blocks = [block for each in (*findings.outcome.scenes, *findings.further) for block in _scene(each)]
     return Section("force", "Force", tuple(blocks) or (Sentences((NONE_ASKED,), "muted"),))
 
 

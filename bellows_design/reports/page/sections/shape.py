@@ -10,7 +10,7 @@ from bellows_design.reports.page.wording import pressure_text
 from bellows_design.web.scene import Field, Surface
 
 if TYPE_CHECKING:
-    from bellows_design.deformed import SurfaceFrames
+    from bellows_design.deformed.surface import SurfaceFrames
     from bellows_design.reports.page.findings import Findings
 
 THICKNESS, STRESS = "wall thickness", "von Mises stress"
