@@ -18,7 +18,7 @@ from bellows_design.validation.quoting import reproducible
 from printers.report import RuleResult
 
 if TYPE_CHECKING:
-    from printers.leak_test.result import LayerView
+    from bellows_design.web.layers import PrintLayers
 
 RULE = "leak_test"
 """Name of the rule where the test itself is missing."""
@@ -43,8 +43,7 @@ class LeakOutcome:
         rules: Every rule of the leak test: a failed one speaks against the design.
         figures: What was measured, plain values for JSON.
         seconds: What slicing and testing took, s.
-        view: The layer with the leak, or with the thinnest seal, to be drawn; None where no path
-            leads to the outside.
+        layers: What was laid down, and where it leaks, for a page; None where that was not kept.
     """
 
     slicer: str
@@ -53,7 +52,7 @@ class LeakOutcome:
     rules: tuple[RuleResult, ...]
     figures: Mapping[str, Any] = field(default_factory=dict)
     seconds: float = 0.0
-    view: LayerView | None = field(default=None, repr=False, compare=False)
+    layers: PrintLayers | None = field(default=None, repr=False, compare=False)
 
 
 @dataclass(frozen=True)

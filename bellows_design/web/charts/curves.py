@@ -74,7 +74,7 @@ def line_chart(
         require_pairs(line)
     names = [line.name for line in lines] if len(lines) > 1 else []
     rows = rows_of_keys(names)
-    top = TOP + LINE_OF_TEXT * (1 + len(rows))
+    top = TOP + LINE_OF_TEXT * (1 + len(rows)) + 4
     area = Area(
         scale(_xs(lines, limits, marks), LEFT, WIDTH - RIGHT, log=x_log, bounds=x_bounds),
         scale(

@@ -42,7 +42,7 @@ def axes(area: Area, x_label: str, y_label: str) -> list[str]:
         )
     made.append(segment(left, bottom, right, bottom, "axis"))
     made.append(text(x_label, right, area.height - 8, text_anchor="end"))
-    made.append(text(y_label, 0, top - 12))
+    made.append(text(y_label, 0, top - 14))
     return made
 
 

@@ -44,11 +44,16 @@ export class Controls {
     this.playButton = element("button", { type: "button", class: "round", onclick: () => viewer.play() });
     this.slider = element("input", {
       type: "range", min: 0, max: viewer.frames - 1, step: 0.02, "aria-label": "Frame",
-      oninput: () => { viewer.play(false); viewer.setFrame(this.slider.valueAsNumber); },
+      oninput: () => this.onSlide(this.slider.valueAsNumber),
       onkeydown: (event) => this.onSliderKey(event),
     });
     this.reading = element("output", { class: "reading" });
     return element("div", { class: "group frames" }, this.playButton, this.slider, this.reading);
+  }
+
+  onSlide(frame) {
+    this.viewer.play(false);
+    this.viewer.setFrame(frame);
   }
 
   /** Arrow keys step by whole frames, though the mouse moves between them. */
@@ -56,8 +61,7 @@ export class Controls {
     const step = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1 }[event.key];
     if (!step) return;
     event.preventDefault();
-    this.viewer.play(false);
-    this.viewer.setFrame(Math.round(this.viewer.frame) + step);
+    this.onSlide(Math.round(this.viewer.frame) + step);
   }
 
   fields() {

@@ -39,12 +39,33 @@ export function reducedMotion() {
   return matchMedia("(prefers-reduced-motion: reduce)").matches;
 }
 
-/** Call `changed` when the page turns dark or light. Returns what ends that. */
-export function onThemeChange(changed) {
+/** "dark" or "light" where the page chose one (its own, Furo's and Jupyter's attributes); else "". */
+function chosenTheme() {
+  for (const { dataset } of [document.documentElement, document.body]) {
+    if (dataset.theme === "dark" || dataset.theme === "light") return dataset.theme;
+    if (dataset.jpThemeLight) return dataset.jpThemeLight === "true" ? "light" : "dark";
+  }
+  return "";
+}
+
+/** Give `host` the theme that the page chose. */
+function takeTheme(host) {
+  const theme = chosenTheme();
+  if (theme) host.dataset.theme = theme;
+  else delete host.dataset.theme;
+}
+
+/** Keep the theme of `host` that of the page and call `told` when it changes. Returns what ends that. */
+export function onThemeChange(host, told) {
+  const changed = () => {
+    takeTheme(host);
+    told();
+  };
+  takeTheme(host);
   const query = matchMedia("(prefers-color-scheme: dark)");
   const observer = new MutationObserver(changed);
-  observer.observe(document.documentElement, { attributeFilter: ["data-theme", "class", "style"] });
-  if (document.body) observer.observe(document.body, { attributeFilter: ["data-theme", "class"] });
+  const attributeFilter = ["data-theme", "data-jp-theme-light", "class", "style"];
+  for (const watched of [document.documentElement, document.body]) observer.observe(watched, { attributeFilter });
   query.addEventListener("change", changed);
   return () => {
     observer.disconnect();

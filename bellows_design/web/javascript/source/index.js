@@ -8,13 +8,17 @@
  *     .setSection({axis, offset_mm, on, flip})              .setVisible(name, bool)
  *     .setColour(name, "#rrggbb")   .resetView(view)        .picture()   .state()   .dispose()
  *     events: "shown", "frame", "field", "section", "visible", "view", "playing"
- *   new Bellows.Layers(element, options)                    layers of a print, drawn in a canvas
  *   Bellows.unpackLayers(buffer)    → Promise of layers (packed by bellows_design.web.layers)
+ *   new Bellows.Layers(element, options)
+ *     .show(layers, {layer})        .setLayer(number)       .goTo(mark)  .resetView()  .state()
+ *     events: "layer", "view"
  *   Bellows.start()                 → starts all <div class="bellows-view"> of the page when they
  *                                     come near the screen; Bellows.startAll() at once
  *   Bellows.of(element)             → the viewer that was started in an element
  */
 
+export { Layers } from "./layers.js";
+export { unpackLayers } from "./print.js";
 export { unpack, bytesOfBase64 } from "./unpack.js";
 export { Viewer } from "./viewer.js";
 export { of, start, startAll } from "./start.js";

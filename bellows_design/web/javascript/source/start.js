@@ -1,5 +1,7 @@
 /* Viewers that stand in a page with their data beside them. */
 
+import { Layers } from "./layers.js";
+import { unpackLayers } from "./print.js";
 import { bytesOfBase64, unpack } from "./unpack.js";
 import { Viewer } from "./viewer.js";
 
@@ -14,6 +16,11 @@ const KINDS = {
     if (options.frame !== undefined) viewer.setFrame(options.frame);
     if (options.section) viewer.setSection({ on: true, ...options.section });
     return viewer;
+  },
+  layers: async (host, options, bytes) => {
+    const view = new Layers(host, options);
+    view.show(await unpackLayers(bytes), { layer: options.layer });
+    return view;
   },
 };
 

@@ -12,6 +12,7 @@ const LIGHT = {
   edge: "#1d2b3a",
   cut: "#ffffff",
   wire: "#3c4a58",
+  warn: "#7a4b00",
   fail: "#b3261e",
 };
 
@@ -26,6 +27,7 @@ const DARK = {
   edge: "#0b1016",
   cut: "#10161d",
   wire: "#b6c2ce",
+  warn: "#f2c163",
   fail: "#ff8a80",
 };
 
@@ -37,8 +39,8 @@ const variables = (values) =>
 export const SHARED_STYLE = `
 :host { display: block; ${variables(LIGHT)} color-scheme: light; }
 @media (prefers-color-scheme: dark) { :host { ${variables(DARK)} color-scheme: dark; } }
-:host([data-theme="light"]), :host-context([data-theme="light"]) { ${variables(LIGHT)} color-scheme: light; }
-:host([data-theme="dark"]), :host-context([data-theme="dark"]) { ${variables(DARK)} color-scheme: dark; }
+:host([data-theme="light"]) { ${variables(LIGHT)} color-scheme: light; }
+:host([data-theme="dark"]) { ${variables(DARK)} color-scheme: dark; }
 :host([hidden]) { display: none; }
 * { box-sizing: border-box; }
 .frame {
@@ -80,6 +82,9 @@ label.check { cursor: pointer; }
 input[type="checkbox"] { width: 16px; height: 16px; margin: 0; accent-color: var(--own-accent); }
 .swatch { width: 12px; height: 12px; border-radius: 3px; border: 1px solid var(--own-line); }
 .surfaces { flex-wrap: wrap; }
+.scale-bar { position: absolute; right: 12px; bottom: 10px; text-align: center; font-size: 12px;
+  line-height: 1.2; pointer-events: none; }
+.scale-bar i { display: block; height: 6px; border: 1.5px solid var(--own-ink); border-top: 0; margin-top: 2px; }
 .quiet { color: var(--own-muted); }
 .hidden-text { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%);
   white-space: nowrap; }
@@ -102,9 +107,6 @@ export const VIEWER_STYLE = `${SHARED_STYLE}
   border-top: 2px solid var(--own-fail); }
 .legend-missing { font-size: 12px; display: flex; gap: 6px; align-items: center; }
 .legend-missing i { width: 12px; height: 12px; border-radius: 3px; background: #9e9e9e; }
-.scale-bar { position: absolute; right: 12px; bottom: 10px; text-align: center; font-size: 12px;
-  line-height: 1.2; pointer-events: none; }
-.scale-bar i { display: block; height: 6px; border: 1.5px solid var(--own-ink); border-top: 0; margin-top: 2px; }
 .triad { position: absolute; left: 8px; bottom: 8px; width: 68px; height: 68px; pointer-events: none; }
 .triad text { font-size: 12px; font-weight: 700; text-anchor: middle; dominant-baseline: central; }
 .triad line { stroke-width: 2.4; stroke-linecap: round; }
@@ -123,4 +125,17 @@ export const VIEWER_STYLE = `${SHARED_STYLE}
 .note.shown { opacity: 0.92; }
 .stage { container-type: size; }
 @media (prefers-reduced-motion: reduce) { .note { transition: none; } }
+`;
+
+export const LAYERS_STYLE = `${SHARED_STYLE}
+.stage { touch-action: pan-y; cursor: grab; }
+.stage:active { cursor: grabbing; }
+.kinds { position: absolute; left: 12px; top: 10px; display: flex; flex-wrap: wrap; gap: 2px 14px;
+  max-width: calc(100% - 24px); font-size: 12px; pointer-events: none; }
+.kinds span { display: inline-flex; align-items: center; gap: 5px; white-space: nowrap;
+  text-shadow: 0 0 3px var(--own-stage), 0 0 3px var(--own-stage); }
+.group.frames { flex: 1 1 300px; flex-wrap: wrap; }
+.marks { flex-wrap: wrap; }
+.mark { text-align: left; }
+.mark.fail { color: var(--own-fail); } .mark.warn { color: var(--own-warn); }
 `;

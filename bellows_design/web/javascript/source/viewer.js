@@ -41,7 +41,7 @@ export class Viewer extends EventTarget {
     this.buildPage();
     this.startGraphics();
     this.controls = new Controls(this, this.bar, this.options.controls);
-    this.endTheme = onThemeChange(() => this.recolour());
+    this.endTheme = onThemeChange(this.host, () => this.recolour());
   }
 
   /* ---- page ---- */
