@@ -173,7 +173,7 @@ class Assembly:
 
     @cached_property
     def _surface(self) -> WholeSurface:
-        return WholeSurface.of(self.whole)
+        return WholeSurface.of(self.whole, self.anchor.design.bellows, self._state(self.anchor))
 
 
 def _anchor(found: Found) -> Evaluation:

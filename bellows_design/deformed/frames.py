@@ -42,15 +42,17 @@ def surface_frames(found: Evaluation, count: int = 11) -> SurfaceFrames:
         raise DesignError(f"count = {count} frames must lie between 2 and {MOST_FRAMES}.")
     states = _states(found, np.linspace(0.0, found.pressure_mpa, count)[1:].tolist())
     body, ends = _solutions(found)
-    shown = WholeSurface.of(whole_of(found.design, body.problem.mesh, _mesh(ends)))
-    return _frames(found, shown, states)
-
-
-def _frames(found: Evaluation, shown: WholeSurface, states: Sequence[_AtPressure]) -> SurfaceFrames:
-    bellows, (body, ends) = found.design.bellows, _solutions(found)
-    rest = BodyState.at_rest(body.problem.mesh)
     unloaded = None if ends is None else BodyState.at_rest(ends.problem.mesh)
-    first = shown.at_rest(bellows, ActuatorState(rest, unloaded, 0.0))
+    rest = ActuatorState(BodyState.at_rest(body.problem.mesh), unloaded, 0.0)
+    whole = whole_of(found.design, body.problem.mesh, _mesh(ends))
+    return _frames(WholeSurface.of(whole, found.design.bellows, rest), found, rest, states)
+
+
+def _frames(
+    shown: WholeSurface, found: Evaluation, rest: ActuatorState, states: Sequence[_AtPressure]
+) -> SurfaceFrames:
+    bellows = found.design.bellows
+    first = shown.at_rest(bellows, rest)
     stresses = [shown.von_mises(each.state) for each in states]
     return SurfaceFrames(
         shown.flat.triangles,
