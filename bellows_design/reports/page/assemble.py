@@ -119,4 +119,4 @@ def _viewer(block: Space) -> Markup:
 def _layers(block: Layers) -> Markup:
     from bellows_design.web.layers import layers_element
 
-    return Markup(layers_element(block.view))
+    return Markup(layers_element(block.layers))

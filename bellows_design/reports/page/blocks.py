@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, ClassVar, Literal
 if TYPE_CHECKING:
     from bellows_design.reports.page.drawing.marks import Drawing
     from bellows_design.reports.page.curves.chart import BarChart, Chart
+    from bellows_design.web.layers import PrintLayers
     from bellows_design.web.scene import Shown
 
 Tone = Literal["", "good", "info", "warn", "bad", "muted"]
@@ -128,11 +129,11 @@ class Space:
 
 @dataclass(frozen=True, eq=False)
 class Layers:
-    """The layer view of a leak test: markup of ``web.layers``."""
+    """The layers of a print, with a slider over them."""
 
     template: ClassVar[str] = "layers.html"
 
-    view: object
+    layers: PrintLayers
     caption: str
 
 

@@ -23,6 +23,11 @@ if TYPE_CHECKING:
     from bellows_design.reports.page.findings import Findings
     from printers.report import RuleResult
 
+CAPTION = (
+    "The beads as the slicer lays them down, layer by layer; marks are where the part leaks, or where "
+    "its seal is thinnest."
+)
+
 TITLES = ("", "rule", "measured", "required", "where", "what it says")
 
 
@@ -37,12 +42,8 @@ def _blocks(findings: Findings) -> Iterator[Block]:
         yield Sentences((f"It was not run: {test.why}.",), "warn" if test.failed else "")
         return
     yield Facts(tuple(_facts(test, test.outcome)))
-    if test.outcome.view is not None:
-        yield Layers(
-            test.outcome.view,
-            "The layer of the leak, or of the thinnest seal: beads as the slicer lays them, and "
-            "the path of air that was looked for.",
-        )
+    if test.outcome.layers is not None:
+        yield Layers(test.outcome.layers, CAPTION)
     right = ("measured", "required")
     yield Grid(headings(*TITLES, right=right), tuple(map(_row, test.rules)))
     notes = test.outcome.figures.get("notes", ())

@@ -44,8 +44,7 @@ def _blocks(found: Sensitivities) -> Iterator[Block]:
     yield Pictures(tuple(_pictures(rows)))
     if found.warnings:
         yield Sentences(tuple(map(capitalised, found.warnings)), "warn")
-    notes = (f"Time: {found.seconds:.1f} s.", *map(capitalised, notes_on(found)))
-    yield Sentences(notes, "muted")
+    yield Sentences((*notes_on(found), f"time: {found.seconds:.1f} s."), "muted")
     yield Folded("Derivatives per unit", (_table(rows),))
 
 

@@ -13,6 +13,9 @@ if TYPE_CHECKING:
     from bellows_design.deformed.surface import SurfaceFrames
     from bellows_design.reports.page.findings import Findings
 
+NEAR_LIMIT = 0.4
+"""Of the limit: from such a stress on the colours end at the limit."""
+
 THICKNESS, STRESS = "wall thickness", "von Mises stress"
 
 
@@ -43,7 +46,7 @@ def deformed(findings: Findings) -> Section:
 def _moving(findings: Findings, found: SurfaceFrames) -> Block:
     design = findings.outcome.design
     limit = design.max_von_mises
-    colours = Field(STRESS, "MPa", found.von_mises, low=0.0, limit=limit)
+    colours = Field(STRESS, "MPa", found.von_mises, 0.0, _top(found, limit), limit)
     labels = tuple(
         f"{pressure_text(float(pressure))}, {angle:.0f}°"
         for pressure, angle in zip(found.pressures_mpa, found.angles_deg, strict=True)
@@ -53,8 +56,15 @@ def _moving(findings: Findings, found: SurfaceFrames) -> Block:
     caption = (
         "The whole actuator, put together from the solution of its bubbles, from rest to "
         f"{pressure_text(float(found.pressures_mpa[-1]))}: move the slider, or press [ and ]. "
-        "Shapes on the way are those of the coarsest mesh. Stresses at sharp edges without a "
-        f"fillet depend on the mesh and do not count; the limit is {limit:g} MPa."
+        "Shapes and colours are those of the coarsest mesh, whose stresses are somewhat off: the "
+        "finest one's highest stress stands on top of the page. At sharp edges without a fillet "
+        f"they depend on the mesh and do not count. The limit is {limit:g} MPa."
     )
     last = len(found.pressures_mpa) - 1
     return Space((surface,), caption, f"{design.name} under pressure", STRESS, 520, last)
+
+
+def _top(found: SurfaceFrames, limit: float) -> float:
+    """Upper end of the colours: the limit, where the stress comes near it or passes it."""
+    highest = float(found.von_mises.max())
+    return limit if highest > NEAR_LIMIT * limit else highest or limit

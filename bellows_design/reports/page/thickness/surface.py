@@ -22,15 +22,15 @@ SMOOTH = 0.9
 EDGES = 5.0
 """So many edges of the shown mesh span the part at least, whatever its size."""
 
-FINEST, STEP, PASSES = 60.0, 0.2, 5
+FINEST, STEP, PASSES = 60.0, 0.1, 6
 """Where the thickness changes along an edge by more than this ``STEP`` of the largest that is
 shown, edges are halved: down to so many across the part, in so many passes."""
 
 TURN = 2.0
 """mm that count as far as opposite normals: the two sides of a thin wall are kept apart."""
 
-NEAREST = 3
-"""Samples whose mean a point takes."""
+NEAREST = 5
+"""Samples whose median a point takes: at edges single ones have nothing opposite."""
 
 FAR = 1.0
 """mm. Points with no sample as near as that have no thickness: within the port's bore."""
@@ -113,7 +113,7 @@ def _at_points(found: LocalThickness, places: Reals, normals: Reals, reach: floa
     samples = found.samples
     known = KDTree(np.hstack([samples.points, TURN / 2 * samples.normals]))
     apart, which = known.query(np.hstack([places, TURN / 2 * normals]), k=NEAREST)
-    values = np.minimum(found.thickness, reach)[which].mean(axis=1)
+    values = np.median(np.minimum(found.thickness, reach)[which], axis=1)
     return np.where(apart[:, 0] <= FAR, values, np.nan)
 
 
