@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from bellows_design.reports.page.findings import Findings
     from bellows_design.web.scene import Surface
 
-SIZE = (13.0, 9.6)
+SIZE = (13.0, 8.6)
 """Inches."""
 
 DOTS = 110
@@ -36,7 +36,7 @@ def contact_sheet(found: Findings) -> bytes:
     figure = Figure(figsize=SIZE, dpi=DOTS, layout="constrained")
     grid = figure.subplot_mosaic(
         [["head", "head", "head"], ["rest", "cut", "bent"], ["angle", "stress", "words"]],
-        height_ratios=[0.55, 2.2, 2.0],
+        height_ratios=[0.3, 2.2, 2.0],
     )
     top = head(found)
     _title(grid["head"], top)

@@ -38,7 +38,7 @@ def rendered(surface: Surface, look: Look) -> NDArray[np.uint8]:
         plotter.set_background("white")
         plotter.add_mesh(_mesh(surface, look), **_options(surface, look))
         plotter.view_vector((-0.55, -1.0, 0.45) if not look.cut else (0.0, -1.0, 0.18))
-        plotter.camera.zoom(1.25)
+        plotter.camera.zoom(1.45)
         plotter.enable_anti_aliasing("ssaa")
         pixels = plotter.screenshot(return_img=True)
         plotter.close()

@@ -22,9 +22,12 @@ SMOOTH = 0.9
 EDGES = 5.0
 """So many edges of the shown mesh span the part at least, whatever its size."""
 
-FINEST, STEP, PASSES = 60.0, 0.1, 6
+FINEST, STEP, PASSES = 60.0, 0.06, 6
 """Where the thickness changes along an edge by more than this ``STEP`` of the largest that is
 shown, edges are halved: down to so many across the part, in so many passes."""
+
+CELL = 0.03
+"""mm. Nearer points of the mesh are shown as one: its slivers would be seen as lines."""
 
 TURN = 2.0
 """mm that count as far as opposite normals: the two sides of a thin wall are kept apart."""
@@ -52,8 +55,9 @@ class ThicknessMap:
 
 def thickness_map(design: Design, mesh: ClosedMesh) -> ThicknessMap:
     """The local thickness below the printed surface, as the printer's rules measure it."""
-    survey = _Survey.of(design, mesh)
-    vertices, triangles, origin = refined(mesh.vertices, mesh.triangles, survey.wanted, PASSES)
+    coarse = _without_slivers(mesh.vertices, mesh.triangles)
+    survey = _Survey.of(design, mesh, _patches(*coarse))
+    vertices, triangles, origin = refined(*coarse, survey.wanted, PASSES)
     places, corners, values = survey.values(vertices, triangles, origin)
     return ThicknessMap(corners, places, values, survey.reach)
 
@@ -68,10 +72,9 @@ class _Survey:
     extent: float
 
     @staticmethod
-    def of(design: Design, mesh: ClosedMesh) -> _Survey:
+    def of(design: Design, mesh: ClosedMesh, patches: Integers) -> _Survey:
         """Measured on the part's mesh."""
         extent = float(np.ptp(mesh.vertices, axis=0).max())
-        patches = _patches(mesh.vertices, mesh.triangles)
         return _Survey(*_measured(design, mesh), patches, extent)
 
     def wanted(self, vertices: Reals, triangles: Integers, origin: Integers) -> Flags:
@@ -115,6 +118,16 @@ def _at_points(found: LocalThickness, places: Reals, normals: Reals, reach: floa
     apart, which = known.query(np.hstack([places, TURN / 2 * normals]), k=NEAREST)
     values = np.median(np.minimum(found.thickness, reach)[which], axis=1)
     return np.where(apart[:, 0] <= FAR, values, np.nan)
+
+
+def _without_slivers(vertices: Reals, triangles: Integers) -> tuple[Reals, Integers]:
+    """The mesh with points of one cell of a fine grid as one: for the eye alone."""
+    _, first, numbers = np.unique(
+        np.round(vertices / CELL), axis=0, return_index=True, return_inverse=True
+    )
+    joined = numbers.reshape(-1)[triangles]
+    proper = (joined != np.roll(joined, 1, axis=1)).all(axis=1)
+    return vertices[first], joined[proper]
 
 
 def _patches(vertices: Reals, triangles: Integers) -> Integers:
