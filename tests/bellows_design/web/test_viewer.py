@@ -6,6 +6,7 @@ import base64
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
+from itertools import combinations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -33,7 +34,11 @@ def shown(
     browser: Browser, folder: Path, surfaces: list[Shown], text: str = "", **options: Any
 ) -> Iterator[Page]:
     """A page with one viewer; when the block ends, nothing may have gone wrong on it."""
-    window = {name: options.pop(name) for name in ("width", "theme", "calm") if name in options}
+    window = {
+        name: options.pop(name)
+        for name in ("width", "theme", "calm", "has_touch")
+        if name in options
+    }
     file = folder / "page.html"
     page_text = viewer_page(surfaces, "A <block>", **options)
     file.write_text(page_text.replace("</body>", f"{text}</body>"), "utf-8")
@@ -236,10 +241,31 @@ def test_open_surfaces_that_close_each_other_are_filled_together(
         assert state(page)["section"]["caps"] == 0
 
 
+def test_joints_that_are_divided_otherwise_are_closed_and_open_ends_are_not(
+    browser: Browser, tmp_path: Path
+) -> None:
+    """A pipe of square section: once its end is closed by triangles about a middle of their own."""
+    points, triangles = block(10, 10, 40)
+    sides = triangles[4:]
+    lids = np.array([[0, 0, 0], [0, 10, 0], [10, 10, 0], [10, 0, 0], [5, 0, 0], [5, 10, 0]], float)
+    lids = np.vstack([lids, np.add(lids, (0, 0, 40))])
+    fans = [[0, 1, 5], [0, 5, 4], [4, 5, 2], [4, 2, 3]]
+    both = np.vstack([fans, np.array(fans)[:, ::-1] + 6])
+    everything = np.vstack([points, lids])
+    pipe = Surface("pipe", sides, points)
+    closed = Surface("closed", np.vstack([sides, both + 8]), everything)
+    half = Surface("half", np.vstack([sides, np.array(fans) + 8]), everything)
+    for surface, expected in ((pipe, False), (half, False), (closed, True)):
+        with shown(browser, tmp_path, [surface]) as page:
+            found = state(page)
+            assert found["surfaces"][0]["closed"] is expected, surface.name
+            assert found["section"]["caps"] == int(expected)
+
+
 def test_the_section_s_slider_and_axis_move_the_plane(browser: Browser, tmp_path: Path) -> None:
     with shown(browser, tmp_path, [sheared()]) as page:
         offset = page.get_by_label("Place of the section, mm")
-        assert offset.is_disabled()
+        assert not offset.is_visible()
         page.get_by_role("button", name="Section", exact=True).click()
         page.get_by_label("Axis of the section").select_option("x")
         assert (offset.get_attribute("min"), offset.get_attribute("max")) == ("0", "60")
@@ -291,6 +317,64 @@ def test_colours_are_those_of_the_values(browser: Browser, tmp_path: Path) -> No
     left, right = (picture[middle, end] for end in (columns.min() + 6, columns.max() - 6))
     assert left[2] > left[1] and left[2] > left[0] * 0.9, "violet"
     assert right[0] > 180 and right[1] > 180 and right[2] < 120, "yellow"
+
+
+def test_the_value_is_read_where_the_mouse_points(browser: Browser, tmp_path: Path) -> None:
+    """On the front of a block the value is x / 40: at a quarter of its length 0.25."""
+    points, triangles = block(40, 10, 10)
+    field = Field("share", "MPa", points[:, 0] / 40)
+    surface = Surface("block", triangles, points, (field,))
+    with shown(browser, tmp_path, [surface], view="front", field="share") as page:
+        rows, columns = np.nonzero(drawn(pixels(page)))
+        left, right = columns.min(), columns.max() + 1
+        y = (rows.min() + rows.max()) / 2
+        for share in (0.25, 0.6):
+            call = f"readValue({left + share * (right - left)}, {y})"
+            value = page.evaluate(f"async () => (await {FIRST}).{call}")
+            assert value == pytest.approx(share, abs=0.01)
+        assert page.evaluate(f"async () => (await {FIRST}).readValue(3, 3)") is None
+        box = page.locator(".stage").bounding_box()
+        assert box is not None
+        page.mouse.move(box["x"] + left + 0.25 * (right - left), box["y"] + y)
+        page.wait_for_function(f"async () => !(await {FIRST}).value.hidden")
+        assert page.locator(".value").text_content() == "0.25 MPa"
+
+
+def test_behind_a_section_the_inside_is_read(browser: Browser, tmp_path: Path) -> None:
+    points, triangles = hollow(20, 4)
+    field = Field("depth", "mm", points[:, 1])
+    cube = Surface("cube", triangles, points, (field,))
+    with shown(browser, tmp_path, [cube], view="front", field="depth") as page:
+        call = f"async () => {{ const v = await {FIRST}; v.render(); return v.readValue(%s); }}"
+        middle = page.evaluate(f"async () => (await {FIRST}).stage.clientWidth / 2")
+        assert page.evaluate(call % f"{middle}, 215") == pytest.approx(0, abs=1e-3)
+        told(page, "setSection({ on: true })")
+        assert page.evaluate(call % f"{middle}, 215") == pytest.approx(16, abs=1e-2)
+
+
+def test_a_finger_turns_sideways_and_scrolls_upwards(browser: Browser, tmp_path: Path) -> None:
+    below = "<div style='height: 3000px'></div>"
+    with shown(browser, tmp_path, [sheared()], text=below, has_touch=True) as page:
+        session = page.context.new_cdp_session(page)
+
+        def touch(kind: str, *places: tuple[float, float]) -> None:
+            points = [{"x": x, "y": y} for x, y in places]
+            session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+
+        def swipe(right: float, down: float) -> None:
+            touch("touchStart", (400, 250))
+            for step in range(1, 11):
+                touch("touchMove", (400 + right * step / 10, 250 + down * step / 10))
+            touch("touchEnd")
+
+        start = state(page)["camera"]
+        swipe(0, -150)
+        page.wait_for_function("scrollY > 50")
+        assert state(page)["camera"]["position"] == pytest.approx(start["position"], abs=1e-6)
+        page.evaluate("scrollTo(0, 0)")
+        swipe(120, 0)
+        assert page.evaluate("scrollY") == 0
+        assert state(page)["camera"]["position"] != pytest.approx(start["position"], abs=1)
 
 
 def test_a_surface_is_hidden_by_its_box(browser: Browser, tmp_path: Path) -> None:
@@ -372,8 +456,15 @@ def test_it_fits_and_is_readable(browser: Browser, tmp_path: Path, width: int, t
     with shown(browser, tmp_path, surfaces, field="von Mises stress", **options) as page:
         assert wider_than_the_window(page) == 0
         assert hard_to_read(page) == []
-        for box in (element.bounding_box() for element in page.locator("button, select").all()):
-            assert box is not None and box["x"] >= 0 and box["x"] + box["width"] <= width
+        boxes = [
+            element.bounding_box() for element in page.locator(".bar :is(button, select)").all()
+        ]
+        places = [(box["x"], box["y"], box["width"], box["height"]) for box in boxes if box]
+        assert len(places) == len(boxes) == 7
+        assert all(x >= 0 and x + wide <= width for x, _, wide, _ in places)
+        for (x, y, wide, high), (x2, y2, wide2, high2) in combinations(places, 2):
+            beside = x + wide <= x2 or x2 + wide2 <= x
+            assert beside or y + high <= y2 or y2 + high2 <= y, "controls overlap"
 
 
 def test_dark_and_light_pages_have_dark_and_light_stages(browser: Browser, tmp_path: Path) -> None:

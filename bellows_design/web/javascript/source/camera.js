@@ -18,7 +18,7 @@ export const VIEWS = {
 };
 
 export class Camera {
-  constructor(canvas, changed) {
+  constructor(canvas, changed, taken) {
     this.camera = new OrthographicCamera(-1, 1, 1, -1, -1000, 1000);
     this.camera.up.set(0, 0, 1);
     this.width = this.height = 1;
@@ -32,7 +32,10 @@ export class Camera {
     this.orbit.minZoom = 0.15;
     this.orbit.maxZoom = 60;
     this.orbit.addEventListener("change", changed);
+    this.orbit.addEventListener("start", taken);
     canvas.style.touchAction = "pan-y"; // a finger that moves up or down scrolls the page
+    canvas.addEventListener("pointerdown", ({ isPrimary }) => isPrimary && this.orbit.saveState());
+    canvas.addEventListener("pointercancel", () => this.orbit.reset()); // it was a scroll
   }
 
   /** The canvas's size, pixels, and the room for what lies over it, as shares of its sides. */

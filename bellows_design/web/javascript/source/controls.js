@@ -94,7 +94,8 @@ export class Controls {
       onclick: () => viewer.setSection({ flip: !viewer.section.flip }),
     }, "⇄");
     this.place = element("output", { class: "reading quiet" });
-    return element("div", { class: "group section" }, this.cut, this.axis, this.offset, this.place, this.flip);
+    this.placing = element("div", { class: "place" }, this.axis, this.offset, this.place, this.flip);
+    return element("div", { class: "group section" }, this.cut, this.placing);
   }
 
   surfaces() {
@@ -155,8 +156,8 @@ export class Controls {
     this.offset.value = section.placed ? section.offset : (low + high) / 2;
     this.cut.setAttribute("aria-pressed", String(section.on));
     this.axis.value = section.axis;
-    for (const control of [this.axis, this.offset, this.flip]) control.disabled = !section.on;
-    this.place.textContent = section.on ? `${shortNumber(section.offset, high - low)} mm` : "";
+    this.placing.hidden = !section.on;
+    this.place.textContent = `${shortNumber(section.offset, high - low)} mm`;
     this.offset.setAttribute("aria-valuetext", `${section.axis} = ${this.place.textContent}`);
   }
 }

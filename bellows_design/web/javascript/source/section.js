@@ -19,7 +19,7 @@ export class Section {
   /** Objects that draw the caps of all closed groups among `shapes`; replaces those before. */
   rebuild(shapes, size) {
     this.dispose();
-    this.caps = closedGroups(shapes, Math.max(1e-3, size * 1e-4)).map((group, number) => {
+    this.caps = closedGroups(shapes, size).map((group, number) => {
       const plane = new Mesh(new PlaneGeometry(4 * size, 4 * size), capMaterial());
       plane.frustumCulled = false;
       plane.renderOrder = -100 + 2 * number + 1;

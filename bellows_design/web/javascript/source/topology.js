@@ -58,7 +58,7 @@ function directedEdges(cells, same) {
  * The vertices that are drawn: points, parted where they lie on a crease.
  *
  * `index` holds the vertices of all triangles, `source` the point of each vertex, `creases` pairs
- * of vertices, `open` those of edges with one triangle only: none where the surface is closed.
+ * of vertices at sharp edges, `open` pairs at edges with one triangle only.
  */
 export function topologyOf(surface) {
   const { cells } = surface;
@@ -86,7 +86,7 @@ export function topologyOf(surface) {
       parents[root(parents, next)] = root(parents, other);
     } else if (a < b) creases.push(corner, next);
   }
-  return { ...vertices(cells, parents, creases, open), same };
+  return vertices(cells, parents, creases, open);
 }
 
 function vertices(cells, parents, creases, open) {
@@ -105,28 +105,39 @@ function vertices(cells, parents, creases, open) {
   return {
     index,
     source: Uint32Array.from(source),
-    creases: ofCorners([...creases, ...open]),
+    creases: ofCorners(creases),
     open: ofCorners(open),
   };
 }
 
-/** Whether the open edges of all these surfaces close each other, to `tolerance` mm. */
-export function closeEachOther(openEdges, tolerance) {
-  const cell = (x) => Math.floor(x / tolerance);
-  const grid = new Map();
-  openEdges.forEach(([x, y, z], number) => {
-    const key = `${cell(x)},${cell(y)},${cell(z)}`;
-    if (!grid.has(key)) grid.set(key, []);
-    grid.get(key).push(number);
-  });
-  const hasPartner = ([x, y, z], number) => {
-    for (let i = -1; i < 2; i += 1)
-      for (let j = -1; j < 2; j += 1)
-        for (let k = -1; k < 2; k += 1) {
-          const found = grid.get(`${cell(x) + i},${cell(y) + j},${cell(z) + k}`);
-          if (found && found.some((other) => other !== number)) return true;
-        }
-    return false;
-  };
-  return openEdges.every(hasPartner);
+/** How far from closed surfaces may be, of the area and volume of their box. */
+const NEARLY = 3e-4;
+
+/**
+ * Whether surfaces with these open edges enclose a volume, together and nearly.
+ *
+ * `edges` holds six coordinates of each edge, from its start to its end. Along rims that lie on each
+ * other, though divided otherwise, the integrals of r × dl and of its products with x, y and z
+ * cancel; they do not along the rims of a hole, nor along those at both ends of a pipe.
+ */
+export function enclose(edges, size) {
+  const sums = new Float64Array(12);
+  const centre = meanOf(edges);
+  for (let i = 0; i < edges.length; i += 6) {
+    const along = [0, 1, 2].map((axis) => edges[i + 3 + axis] - edges[i + axis]);
+    const at = [0, 1, 2].map((axis) => (edges[i + 3 + axis] + edges[i + axis]) / 2 - centre[axis]);
+    for (let axis = 0; axis < 3; axis += 1) {
+      const [next, last] = [(axis + 1) % 3, (axis + 2) % 3];
+      const turned = at[next] * along[last] - at[last] * along[next];
+      sums[axis] += turned / size ** 2;
+      for (let other = 0; other < 3; other += 1) sums[3 + 3 * other + axis] += (turned * at[other]) / size ** 3;
+    }
+  }
+  return sums.every((sum) => Math.abs(sum) < NEARLY);
+}
+
+function meanOf(edges) {
+  const mean = [0, 0, 0];
+  edges.forEach((x, i) => (mean[i % 3] += x / (edges.length / 3)));
+  return mean;
 }

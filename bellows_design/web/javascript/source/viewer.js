@@ -2,12 +2,13 @@
 
 import { LinearSRGBColorSpace, Scene, WebGLRenderer } from "three";
 import { Camera, VIEWS } from "./camera.js";
-import { mapBytes } from "./colours.js";
+import { mapBytes, shortNumber } from "./colours.js";
 import { Controls } from "./controls.js";
 import { element, onThemeChange, reducedMotion, shadowOf } from "./dom.js";
 import { mapTexture } from "./materials.js";
 import { Help, Legend, ScaleBar, Triad } from "./overlay.js";
 import { picture } from "./picture.js";
+import { Probe } from "./probe.js";
 import { Section } from "./section.js";
 import { Shape } from "./shape.js";
 import { VIEWER_STYLE } from "./style.js";
@@ -37,6 +38,7 @@ export class Viewer extends EventTarget {
     this.frame = 0;
     this.field = null;
     this.renders = 0;
+    this.touched = false; // whether the reader has turned, moved or zoomed the view
     this.section = new Section();
     this.buildPage();
     this.startGraphics();
@@ -54,13 +56,15 @@ export class Viewer extends EventTarget {
     this.canvas = element("canvas", { "aria-hidden": "true" });
     this.message = element("div", { class: "message", role: "alert", hidden: true });
     this.note = element("div", { class: "note", "aria-hidden": "true" });
+    this.value = element("div", { class: "value", "aria-hidden": "true", hidden: true });
+    this.probe = new Probe(this);
     this.keysText = element("span", { class: "hidden-text", id: "keys" },
       "Arrow keys turn, plus and minus zoom, square brackets change the frame, S cuts, R resets.");
     this.stage = element(
       "div",
       { class: "stage", tabindex: 0, role: "application", "aria-roledescription": "3D view",
         "aria-label": this.options.label, "aria-describedby": "keys", part: "stage" },
-      this.canvas, this.triad.root, this.scaleBar.root, this.legend.root, this.note, this.keysText,
+      this.canvas, this.triad.root, this.scaleBar.root, this.legend.root, this.note, this.value, this.keysText,
     );
     this.bar = element("div", { class: "bar", part: "bar" });
     this.root = shadowOf(this.host, VIEWER_STYLE);
@@ -70,6 +74,8 @@ export class Viewer extends EventTarget {
     else this.fillHost();
     this.stage.addEventListener("keydown", (event) => this.onKey(event));
     this.stage.addEventListener("pointerdown", () => this.stage.focus({ preventScroll: true, focusVisible: false }));
+    this.stage.addEventListener("pointermove", (event) => this.onPoint(event));
+    this.stage.addEventListener("pointerleave", () => (this.value.hidden = true));
     this.stage.addEventListener("wheel", (event) => this.onWheel(event), { capture: true });
   }
 
@@ -92,10 +98,11 @@ export class Viewer extends EventTarget {
     this.renderer.outputColorSpace = LinearSRGBColorSpace; // the shaders' colours are as displayed
     this.renderer.setClearColor(0, 0);
     this.scene = new Scene();
-    this.camera = new Camera(this.canvas, () => {
+    const changed = () => {
       this.invalidate();
       this.tell("view");
-    });
+    };
+    this.camera = new Camera(this.canvas, changed, () => (this.touched = true));
     this.map = { value: null };
     this.setMap(this.options.map);
     this.canvas.addEventListener("webglcontextlost", (event) => this.onLost(event));
@@ -360,6 +367,29 @@ export class Viewer extends EventTarget {
     if (this.root.activeElement === this.stage || event.ctrlKey || event.metaKey) return;
     event.stopPropagation();
     this.say("Click first, or hold Ctrl, to zoom");
+  }
+
+  /** Say the value below the mouse; not while it turns the view. */
+  onPoint({ clientX, clientY, buttons, pointerType }) {
+    cancelAnimationFrame(this.pointing);
+    this.value.hidden = true;
+    if (buttons || pointerType !== "mouse" || !this.field || !this.renderer) return;
+    this.pointing = requestAnimationFrame(() => {
+      const box = this.stage.getBoundingClientRect();
+      this.readValue(clientX - box.left, clientY - box.top);
+    });
+  }
+
+  /** Show the value at a place of the stage, pixels; returns it, null where there is none. */
+  readValue(x, y) {
+    const found = this.probe.at(x, y);
+    this.value.hidden = !found;
+    if (!found) return null;
+    const { low, high } = this.colouring;
+    this.value.textContent = `${shortNumber(found.value, high - low)} ${found.unit}`.trim();
+    const left = x > this.stage.clientWidth - 110;
+    this.value.style.transform = `translate(${x}px, ${y}px) translate(${left ? "calc(-100% - 10px)" : "14px"}, -130%)`;
+    return found.value;
   }
 
   say(text) {
