@@ -21,15 +21,14 @@ from bellows_design.deformed.joined.state import BodyState
 from bellows_design.deformed.joined.stubs import Stub, with_stub
 from bellows_design.design.bellows_parameters import BellowsParameters
 from bellows_design.design.design import Design
-from bellows_design.design.lengths import SMALLEST_FEATURE
-from bellows_design.geometry.face_names import BUBBLE_MIDDLE, GAP_MIDDLE, ROOT, TIP
-from solver.arrays import Reals
+from bellows_design.geometry.face_names import BUBBLE_MIDDLE, GAP_MIDDLE, ROOT, SYMMETRY, TIP
+from solver.arrays import Integers, Reals
 from solver.mesh.mesh import Mesh
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
 
-SHORTEST_STUB = SMALLEST_FEATURE
+SHORTEST_STUB = 0.1
 """mm. Where the actuator ends before the gap's middle, a stub is this long."""
 
 LONGER = 1e-6
@@ -42,16 +41,17 @@ class End:
 
     ``piece``: of that body, with the surface ``section`` at the bubble's middle. ``match``: of that
     to the cell's; ``spread`` (n, k): how values at its nodes are continued to all. ``shares`` (n,):
-    0 in the bubble's middle, 1 where the bubble or its gap ends and beyond. ``outward``: on which
-    side of the middle it lies, -1 or 1; ``sign``: -1 if it is used mirrored at the bubble's middle,
-    else 1. ``stub``: what follows a bubble without neighbours; a part of the short actuator has its
-    own.
+    0 in the bubble's middle, 1 where the bubble or its gap ends and beyond. ``tendon`` (j,): nodes
+    of the section about whose middle it bends on. ``outward``: on which side of the bubble's middle
+    it lies, -1 or 1; ``sign``: -1 if it is used mirrored there, else 1. ``stub``: what follows a
+    bubble without neighbours; a part of the short actuator has its own.
     """
 
     piece: Piece
     match: Match
     spread: csr_array
     shares: Reals
+    tendon: Integers
     outward: int
     sign: int = 1
     stub: Stub | None = None
@@ -60,16 +60,18 @@ class End:
     def of(
         piece: Piece,
         cell: Mesh,
-        reach: float,
+        bellows: BellowsParameters,
         outward: int,
         sign: int = 1,
         stub: Stub | None = None,
     ) -> End:
-        """The end that becomes rigid at ``reach`` (mm) from the bubble's middle."""
-        match = Match.of(piece.mesh, SECTION, cell, BUBBLE_MIDDLE)
-        x = piece.mesh.nodes[:, 0]
-        shares = np.clip(np.abs(x - x[match.nodes].mean()) / reach, 0.0, 1.0)
-        return End(piece, match, match.spread(piece.mesh), shares, outward, sign, stub)
+        """The end that becomes rigid where the bubble ends, or with a stub in the gap's middle."""
+        match, nodes = Match.of(piece.mesh, SECTION, cell, BUBBLE_MIDDLE), piece.mesh.nodes
+        reach = (bellows.bubble_length if stub is None else bellows.pitch) / 2
+        away = np.abs(nodes[:, 0] - nodes[match.nodes, 0].mean())
+        shares = np.clip(away / reach, 0.0, 1.0)
+        tendon = match.nodes[nodes[match.nodes, 2] <= bellows.tendon_height]
+        return End(piece, match, match.spread(piece.mesh), shares, tendon, outward, sign, stub)
 
     @property
     def free(self) -> bool:
@@ -94,6 +96,7 @@ class End:
         moved = self._deformed(ends)
         turned, shares = self._added(moved, bend).applied(moved), self.shares[:, None]
         missed = self.spread @ self.match.missed(moved, cell.moved)
+        missed[self.piece.mesh.surface_nodes(SYMMETRY), 1] = 0.0  # they stay in their plane
         bent: Reals = moved + shares * (turned - moved) - (1 - shares) * missed
         return bent
 
@@ -127,7 +130,7 @@ class End:
         return motion.mirrored if self.sign < 0 else motion
 
     def _added(self, moved: Reals, bend: float) -> Motion:
-        return Motion.about(self.outward * bend, moved[self.match.nodes].mean(axis=0))
+        return Motion.about(self.outward * bend, moved[self.tendon].mean(axis=0))
 
 
 def _of_plane(state: BodyState) -> Motion:
@@ -158,8 +161,7 @@ class Ends:
 def _cut(design: Design, ends: Mesh, cell: Mesh) -> Ends:
     bellows = design.bellows
     root, tip = (_actual(design, piece) for piece in cut(ends, bellows.bubble_middles[0]))
-    reach = bellows.bubble_length / 2
-    return Ends(End.of(root, cell, reach, -1), End.of(tip, cell, reach, 1))
+    return Ends(End.of(root, cell, bellows, -1), End.of(tip, cell, bellows, 1))
 
 
 def _actual(design: Design, piece: Piece) -> Piece:
@@ -186,13 +188,11 @@ def _free(design: Design, ends: Mesh, cell: Mesh) -> Ends:
     tip = max(bellows.length - bellows.bubble_middles[-1] - bellows.pitch / 2, SHORTEST_STUB)
     plug = min(bellows.tendon_thickness, root)
     stubs = with_stub(ends, root - plug, plug, ROOT), with_stub(ends, 0.0, tip, TIP)
-    reach = bellows.pitch / 2
-    return Ends(
-        *(
-            End.of(_piece(stub), cell, reach, 1, sign, stub)
-            for stub, sign in zip(stubs, (-1, 1), strict=True)
-        )
+    root_end, tip_end = (
+        End.of(_piece(stub), cell, bellows, 1, sign, stub)
+        for stub, sign in zip(stubs, (-1, 1), strict=True)
     )
+    return Ends(root_end, tip_end)
 
 
 def _piece(stub: Stub) -> Piece:

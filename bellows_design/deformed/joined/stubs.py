@@ -27,9 +27,9 @@ if TYPE_CHECKING:
 class Stub:
     """A body with a stub behind its gap's middle.
 
-    ``mesh``: of both, undeformed; its new nodes come last. ``weights`` (n, m): which of the body's m
-    nodes each node follows. ``beyond`` (n,): how far it lies behind the plane, mm; ``rigid`` (n,):
-    how much of its motion is the plane's, from 0 at the plane to 1 at the stub's end.
+    ``mesh``: of both, undeformed; its new nodes come last. ``weights`` (n, m): which of the m nodes
+    of the body each node follows. ``beyond`` (n,): how far it lies behind the plane,
+    mm; ``rigid`` (n,): how much of its motion is the plane's, from 0 at the plane to 1 at the end.
     """
 
     mesh: Mesh
@@ -105,7 +105,7 @@ PARTS = (
     ((0, 0), (1, 0), (2, 1), (1, 1)),
     ((0, 0), (0, 1), (1, 1), (2, 1)),
 )
-"""Tetrahedra of a prism: corner of its triangles, in ascending order of their numbers, and level."""
+"""Tetrahedra of a prism: corners of its triangles, in ascending order of their numbers; levels."""
 
 MIDDLES = np.array([[0, 3, 5], [3, 1, 4], [5, 4, 2]])
 """Node of a six-node triangle between two of its corners, or at one."""
