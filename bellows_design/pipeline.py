@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -38,6 +39,8 @@ class Outcome:
         part: The solid as printed and its mesh.
         folder: Where the approved files are; None if the design is refused.
         withdrawn: Folder of an earlier approved export that this refusal took back.
+        page: The report beside the approved files; None where none was made.
+        no_page: Why the report that was asked for could not be made; empty if it was.
     """
 
     design: Design
@@ -49,6 +52,8 @@ class Outcome:
     scenes: tuple[SceneResult, ...] = ()
     folder: Path | None = None
     withdrawn: Path | None = None
+    page: Path | None = None
+    no_page: str = ""
 
     def to_dict(self) -> dict[str, Any]:
         """Plain values for JSON."""
@@ -61,12 +66,18 @@ class Outcome:
             **self.verdict.to_dict(),
             "folder": None if self.folder is None else str(self.folder),
             "withdrawn": None if self.withdrawn is None else str(self.withdrawn),
+            "report": None if self.page is None else str(self.page),
+            "no_report": self.no_page or None,
             "from_cache": None if evaluation is None else evaluation.from_cache or None,
             "check": check_dict(self.design, self.report),
             "leak_test": self.leak_test.to_dict(),
             "evaluation": None if evaluation is None else evaluation.to_dict(),
             **scene_statements(self),
         }
+
+
+Reporter = Callable[[Outcome, Mapping[str, bytes]], bytes]
+"""Makes the report on an approved outcome, beside these files (name -> content)."""
 
 
 def run(
@@ -76,6 +87,7 @@ def run(
     budget: Budget = DEFAULT,
     store: Store | None = None,
     leak_tester: LeakTester | Unavailable | None = None,
+    reporter: Reporter | None = None,
 ) -> Outcome:
     """Build, check and evaluate ``design``, decide, and export it if it is approved.
 
@@ -87,6 +99,8 @@ def run(
         budget: Memory (GiB) and seconds that a mesh may take.
         store: Where evaluations are looked for and kept; None for none.
         leak_tester: The leak test, or why there is none; None for that of this machine.
+        reporter: Makes the report beside the files, such as ``reports.page.make.run_report``; None
+            for no report. Whatever goes wrong in it is a note, and the export goes on without it.
 
     Returns:
         Printability, evaluation, verdict, and what became of the files.
@@ -102,7 +116,7 @@ def run(
 
     require_place(design.name, output_root)
     found = examine(design, progress, budget, store, leak_tester)
-    return _settled(found, output_root)
+    return _settled(found, output_root, reporter, progress)
 
 
 def examine(
@@ -251,15 +265,46 @@ def check(design: Design, part: Part, printer: str | None = None) -> Printabilit
     return check_printability(printed_model(design, part.mesh), profile)
 
 
-def _settled(found: Outcome, output_root: Path) -> Outcome:
+def _settled(
+    found: Outcome, output_root: Path, reporter: Reporter | None, progress: Progress
+) -> Outcome:
     """The outcome once an approved part is exported, or an earlier export of it withdrawn."""
     from bellows_design.export.approved import export_approved
+    from bellows_design.export.manifest import report_name
     from bellows_design.export.statements import companions, grounds, run_statement
 
     if not found.verdict.approved:
         return replace(found, withdrawn=_withdrawn(found, output_root))
+    page = _Page(found, reporter, progress)
     stated = grounds(found), output_root, companions(found), run_statement(found)
-    return replace(found, folder=export_approved(found.part, found.verdict, *stated))
+    folder = export_approved(found.part, found.verdict, *stated, page.made)
+    path = folder / report_name(found.design.name) if page.there else None
+    return replace(found, folder=folder, page=path, no_page=page.failure)
+
+
+@dataclass
+class _Page:
+    """The report beside an export, or why there is none: no run fails for want of it."""
+
+    found: Outcome
+    reporter: Reporter | None
+    progress: Progress
+    there: bool = False
+    failure: str = ""
+
+    def made(self, files: Mapping[str, bytes]) -> bytes | None:
+        """The page, or None, and then a note where one was asked for."""
+        if self.reporter is None:
+            return None
+        self.progress.stage("report")
+        try:
+            page = self.reporter(self.found, files)
+        except Exception as error:  # a fault of the page must not cost an approved export
+            self.failure = f"{type(error).__name__}: {error}"
+            self.progress.note(f"no report was made ({self.failure}); the export is whole")
+            return None
+        self.there = True
+        return page
 
 
 def _withdrawn(found: Outcome, output_root: Path) -> Path | None:

@@ -125,10 +125,17 @@ def _sensitivities(found: Evaluation, progress: Progress) -> Sensitivities | str
         return str(error)
 
 
-def run(options: DesignOptions, output: Path, limits: BudgetOptions, cached: bool) -> Answer:
+def run(
+    options: DesignOptions,
+    output: Path,
+    limits: BudgetOptions,
+    cached: bool,
+    with_report: bool = True,
+) -> Answer:
     """Take the design through all stages; what is approved is written below ``output``."""
     from bellows_design import pipeline
     from bellows_design.reports.outcome import outcome_table
+    from bellows_design.reports.page.make import run_report
 
     require_working_folder()
     require_address_space(EVALUATION)
@@ -137,7 +144,8 @@ def run(options: DesignOptions, output: Path, limits: BudgetOptions, cached: boo
     budget = limits.budget()
     with solving() as progress:
         store = usual_store(progress) if cached else None
-        outcome = pipeline.run(chosen, output, progress, budget, store)
+        reporter = run_report if with_report else None
+        outcome = pipeline.run(chosen, output, progress, budget, store, reporter=reporter)
     unsolved = outcome.evaluation is not None and not outcome.evaluation.converged
     refused = NOT_SOLVED if unsolved else REFUSED
     status = DONE if outcome.verdict.approved else refused

@@ -56,6 +56,7 @@ from bellows_design.cli.options import (
     Meshes,
     MeshSeconds,
     NoCache,
+    NoReport,
     Pressure,
     Printer,
     Quick,
@@ -70,6 +71,7 @@ from bellows_design.cli.options import (
     WithSettings,
     YieldStrength,
 )
+from bellows_design.cli.reporting.command import report
 from bellows_design.cli.starting.kinds import Kind, Listed
 from bellows_design.cli.studies.optimize_command import optimize
 from bellows_design.cli.studio.command import studio
@@ -112,6 +114,13 @@ app.command(
         "bellows compare finger print.csv --write-material my_print.toml",
     ),
 )(compare)
+app.command(
+    rich_help_panel=panels.SHARE,
+    epilog=examples(
+        "bellows report finger",
+        "bellows report finger --scene blocked --png finger.png",
+    ),
+)(report)
 app.command(
     rich_help_panel=panels.SHARE,
     epilog=examples(
@@ -293,6 +302,7 @@ def run(
     memory: Memory = None,
     mesh_seconds: MeshSeconds = None,
     seconds: TimeLimit = None,
+    no_report: NoReport = False,
     no_cache: NoCache = False,
     quiet: Quiet = False,
     as_json: AsJson = False,
@@ -300,7 +310,8 @@ def run(
     """Design, check, evaluate, decide, and export what is approved."""
     options = DesignOptions(name, tuple(settings or ()), printer)
     limits = BudgetOptions(memory, mesh_seconds, seconds)
-    answer(lambda: actions.run(options, output, limits, not no_cache), as_json, quiet)
+    asked = (options, output, limits, not no_cache, not no_report)
+    answer(lambda: actions.run(*asked), as_json, quiet)
 
 
 @app.command(

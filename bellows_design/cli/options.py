@@ -135,6 +135,9 @@ NoCache = Annotated[
         rich_help_panel=panels.LIMITS,
     ),
 ]
+NoReport = Annotated[
+    bool, typer.Option("--no-report", help="Make no report beside the approved files.")
+]
 Meshes = Annotated[
     int | None,
     typer.Option(metavar="N", help="Meshes of each; without it one more than evaluate uses."),

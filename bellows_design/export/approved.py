@@ -1,7 +1,7 @@
 """The folder of an approved design.
 
 ``exports/NAME/`` holds ``NAME.stl``, ``NAME.3mf``, ``NAME.step``, what ships with the part,
-``manifest.json`` and ``run.json``. The folder is written under a hidden name beside its place, read
+``manifest.json``, ``run.json`` and, if one was made, the report. The folder is written under a hidden name beside its place, read
 back and compared, and renamed when it is complete: a reader finds all of it or nothing. Runs that
 export to one folder take turns: each finishes, or withdraws, a whole export before the next begins.
 
@@ -16,7 +16,7 @@ from __future__ import annotations
 import errno
 import os
 import shutil
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from types import MappingProxyType
@@ -30,6 +30,7 @@ from bellows_design.export.manifest import (
     fingerprint,
     is_plain,
     listed_files,
+    report_name,
     run_of,
 )
 from bellows_design.export.part import Part
@@ -50,6 +51,9 @@ if TYPE_CHECKING:
 
 NOTHING: Mapping[str, Any] = MappingProxyType({})
 
+Report = Callable[[Mapping[str, bytes]], bytes | None]
+"""Makes the report that stands beside these files, name -> content; None if it cannot."""
+
 PATIENCE = 60.0
 """s, for which a run waits for others that export to the same folder; each takes some two."""
 
@@ -61,11 +65,13 @@ def export_approved(
     output_root: Path,
     companions: Mapping[str, bytes] = NOTHING,
     run: Mapping[str, Any] = NOTHING,
+    report: Report | None = None,
 ) -> Path:
     """Write the approved ``part`` into ``output_root/NAME`` and return that folder.
 
     ``grounds`` goes into the manifest (design, check, evaluation, versions), ``companions`` are
-    further files by their names, and ``run`` (times, machine) goes into ``run.json``.
+    further files by their names, ``run`` (times, machine) goes into ``run.json``, and ``report``
+    makes the page beside all of them.
 
     Raises:
         BellowsError: The verdict is no approval.
@@ -76,10 +82,12 @@ def export_approved(
         raise BellowsError(f"{part.name} is not approved and cannot be exported")
     target = output_root / part.name
     try:
+        require_place(part.name, output_root)
+        files = contents(part, verdict, grounds, companions)
+        page = _page(part.name, files, report)
         with _folder(output_root), locked(output_root, PATIENCE):
             require_place(part.name, output_root)
-            files = contents(part, verdict, grounds, companions)
-            _replace(target, part, files | {RUN: _run_file(files, run)})
+            _replace(target, part, files | page | {RUN: _run_file(files, page, run)})
     except OSError as error:
         reason = error.strerror or str(error)
         raise CannotWrite(target, f"{reason}; it is approved, but not exported") from error
@@ -136,9 +144,18 @@ def _folder(place: Path) -> Iterator[None]:
         raise
 
 
-def _run_file(files: Mapping[str, bytes], run: Mapping[str, Any]) -> bytes:
-    """What differs between two runs, with the manifest that it belongs to."""
-    return run_of({"manifest": fingerprint(files[MANIFEST])["sha256"], **run})
+def _page(name: str, files: Mapping[str, bytes], report: Report | None) -> dict[str, bytes]:
+    """The report by the name of its file; nothing where there is none."""
+    made = None if report is None else report(files)
+    return {} if made is None else {report_name(name): made}
+
+
+def _run_file(
+    files: Mapping[str, bytes], page: Mapping[str, bytes], run: Mapping[str, Any]
+) -> bytes:
+    """What differs between two runs, with manifest and report that it belongs to."""
+    stated = {name: fingerprint(content) for name, content in page.items()}
+    return run_of({"manifest": fingerprint(files[MANIFEST])["sha256"], "report": stated, **run})
 
 
 def _replace(target: Path, part: Part, files: Mapping[str, bytes]) -> None:

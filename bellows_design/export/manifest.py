@@ -1,8 +1,9 @@
 """What an export's folder says about itself: which files it holds, and where their hashes stand.
 
-``manifest.json`` states the design, the verdict's grounds and the hash of every other file but one:
-``run.json``, which holds what differs between two runs of one design, times and the machine. Both
-are sealed by themselves (``seal.py``).
+``manifest.json`` states the design, the verdict's grounds and the hash of every other file but two:
+``run.json``, which holds what differs between two runs of one design, times and the machine, and
+the report, which shows such times. Manifest and ``run.json`` are sealed by themselves
+(``seal.py``); the hash of the report stands in ``run.json``.
 """
 
 from __future__ import annotations
@@ -25,6 +26,10 @@ FIRST_FORMAT = "bellows-design manifest 1"
 """Without a seal, and with the times in the manifest; its files are still ours."""
 
 RUN_FORMAT = "bellows-design run 1"
+
+REPORT_ENDING = "_report.html"
+"""Of the report's name. The report shows seconds and what the leak test measured, which differ from
+run to run: with its hash in the manifest two exports of one design would never be the same."""
 
 LARGEST = 10_000_000
 """Bytes; a manifest has some 20 000."""
@@ -50,6 +55,11 @@ def fingerprint(content: bytes) -> dict[str, Any]:
     return {"sha256": hashlib.sha256(content).hexdigest(), "bytes": len(content)}
 
 
+def report_name(name: str) -> str:
+    """The file of the report on a design called ``name``."""
+    return f"{name}{REPORT_ENDING}"
+
+
 def listed_files(folder: Path) -> tuple[str, ...] | None:
     """Plain names of the files that the manifest of ours in ``folder`` answers for, but its own.
 
@@ -62,8 +72,16 @@ def listed_files(folder: Path) -> tuple[str, ...] | None:
     except DesignError:
         return None
     files = manifest["files"]
-    own = (RUN,) if manifest["format"] == MANIFEST_FORMAT else ()
-    return (*own, *(name for name in files if is_plain(name) and name not in (RUN, MANIFEST)))
+    own = _beside(folder, manifest) if manifest["format"] == MANIFEST_FORMAT else ()
+    others = (*own, RUN, MANIFEST)
+    return (*own, *(name for name in files if is_plain(name) and name not in others))
+
+
+def _beside(folder: Path, manifest: Mapping[str, Any]) -> tuple[str, ...]:
+    """Our files that no manifest lists: ``run.json``, and the report if it is there."""
+    report = report_name(str(manifest.get("name")))
+    there = is_plain(report) and (folder / report).is_file()
+    return (RUN, report) if there and not (folder / report).is_symlink() else (RUN,)
 
 
 def read_manifest(path: Path) -> dict[str, Any]:

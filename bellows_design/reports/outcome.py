@@ -60,7 +60,9 @@ def _not_judged(verdict: Verdict) -> list[RenderableType]:
 
 def _decision(outcome: Outcome) -> list[RenderableType]:
     if outcome.verdict.approved:
-        return [Text(f"APPROVED: {outcome.folder}", style="bold green")]
+        told = [] if outcome.page is None else [Text(f"report: {outcome.page}")]
+        told += [Text(f"no report: {outcome.no_page}", "yellow")] if outcome.no_page else []
+        return [*told, Text(f"APPROVED: {outcome.folder}", style="bold green")]
     lines: list[RenderableType] = [Text(f"REFUSED: {outcome.design.name}", style="bold red")]
     lines += [f"  - {reason.rule}: {reason.message}" for reason in outcome.verdict.reasons]
     if outcome.withdrawn is not None:

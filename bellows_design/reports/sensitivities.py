@@ -35,11 +35,11 @@ def elasticities_table(found: Sensitivities) -> Sequence[RenderableType]:
     table = _empty(
         "sensitivities, % per % of the parameter", "value", *(name for _, name, _ in COLUMNS)
     )
-    for row in _sorted(found):
+    for row in strongest_first(found):
         relative = (_elasticity(row.elasticities[name]) for name, *_ in COLUMNS)
         table.add_row(row.parameter, f"{row.value:.4g} {row.unit}".strip(), *relative)
     warnings = [Text(f"warning: {warning}", style="yellow") for warning in found.warnings]
-    return [table, *(Text(note) for note in _notes(found)), *warnings]
+    return [table, *(Text(note) for note in notes_on(found)), *warnings]
 
 
 def _derivatives(found: Sensitivities) -> Table:
@@ -48,13 +48,14 @@ def _derivatives(found: Sensitivities) -> Table:
         "per",
         *(f"{name}, {unit}" for _, name, unit in COLUMNS),
     )
-    for row in _sorted(found):
+    for row in strongest_first(found):
         absolute = (f"{row.derivatives[name]:+.4g}" for name, *_ in COLUMNS)
         table.add_row(row.parameter, row.unit or "1", *absolute)
     return table
 
 
-def _sorted(found: Sensitivities) -> list[Sensitivity]:
+def strongest_first(found: Sensitivities) -> list[Sensitivity]:
+    """The parameters, that which changes the angle most on top."""
     return sorted(found.parameters, key=_strength, reverse=True)
 
 
@@ -75,7 +76,7 @@ def _elasticity(value: float | None) -> str:
     return "" if value is None else f"{value:+.3f}"
 
 
-def _notes(found: Sensitivities) -> list[str]:
+def notes_on(found: Sensitivities) -> list[str]:
     """What the numbers mean, one line each."""
     percent = 100 * (found.smooth_peak_ratio - 1)
     notes = [f"stress: a smooth maximum, {percent:.2g} % above the highest one."]

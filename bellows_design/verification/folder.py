@@ -90,30 +90,36 @@ def checked_files(
 ) -> tuple[FileCheck, ...]:
     """Every file that the sealed ``manifest``, of these bytes, lists or that is in ``folder``."""
     listed: Mapping[str, Any] = manifest["files"]
-    checks = [FileCheck(MANIFEST, "as written"), _run_file(folder, content)]
-    checks += [_listed(folder, name, print_) for name, print_ in sorted(listed.items())]
-    known = {MANIFEST, RUN, *listed}
+    run, report = _run_file(folder, content)
+    checks = [FileCheck(MANIFEST, "as written"), run]
+    both = sorted({**report, **listed}.items())
+    checks += [_listed(folder, name, print_) for name, print_ in both]
+    known = {MANIFEST, RUN, *report, *listed}
     with os.scandir(folder) as entries:
         others = (each.name for each in entries if each.name not in known)
         found = sorted(islice(others, MOST_NAMED))
     return (*checks, *(FileCheck(_shown(name), "not listed") for name in found))
 
 
-def _run_file(folder: Path, manifest: bytes) -> FileCheck:
-    """The file of times and machine: sealed by itself, and of this manifest."""
+def _run_file(folder: Path, manifest: bytes) -> tuple[FileCheck, Mapping[str, Any]]:
+    """The file of times and machine: sealed by itself, and of this manifest.
+
+    And the report that it lists, its name -> fingerprint; none if the file is not to be relied on.
+    """
     problem = _irregular(folder / RUN)
     if problem is not None:
-        return FileCheck(RUN, *problem)
+        return FileCheck(RUN, *problem), {}
     try:
         content = read_file(folder / RUN, "run", LARGEST)
         stated = parsed(content, folder / RUN) if seal_holds(content) else {}
     except DesignError as error:
-        return FileCheck(RUN, "changed", str(error))
+        return FileCheck(RUN, "changed", str(error)), {}
     if not stated:
-        return FileCheck(RUN, "changed", "its seal is broken")
+        return FileCheck(RUN, "changed", "its seal is broken"), {}
     if stated.get("manifest") != fingerprint(manifest)["sha256"]:
-        return FileCheck(RUN, "changed", "it belongs to another manifest")
-    return FileCheck(RUN, "as written")
+        return FileCheck(RUN, "changed", "it belongs to another manifest"), {}
+    report = stated.get("report")
+    return FileCheck(RUN, "as written"), report if isinstance(report, dict) else {}
 
 
 def _listed(folder: Path, name: str, print_: object) -> FileCheck:

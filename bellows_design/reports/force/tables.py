@@ -21,13 +21,18 @@ def force_tables(found: ForceCurve, by_distance: bool = False) -> Sequence[Rende
     """
     title = f"{found.design.name}: {found.scene}"
     table = Table(title=Text(title), title_justify="left", box=SIMPLE, show_header=False)
-    for name, value in (_results(found) | _stroke(found) | _effort(found)).items():
+    for name, value in result_rows(found).items():
         table.add_row(name, Text(value))
     curves = [_curve(found.curve)] if len(found.curve) > 1 else []
     curves += [_by_distance(found.by_distance)] if found.by_distance and by_distance else []
     notes = [Text(f"warning: {text}", style="yellow") for text in found.warnings]
     failure = [] if found.converged else [Text(f"NOT REACHED: {found.message}", style="bold red")]
     return [table, *curves, *notes, *failure]
+
+
+def result_rows(found: ForceCurve) -> dict[str, str]:
+    """What was found at the highest pressure, of the stroke, and what it took, by names."""
+    return _results(found) | _stroke(found) | _effort(found)
 
 
 def _results(found: ForceCurve) -> dict[str, str]:

@@ -1,0 +1,1 @@
+"""``bellows report``: its options and its answer."""

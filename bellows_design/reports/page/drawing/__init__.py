@@ -1,0 +1,1 @@
+"""Plane drawings as plain values, and as SVG."""

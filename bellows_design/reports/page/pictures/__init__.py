@@ -1,0 +1,1 @@
+"""The report as pictures: a contact sheet, and pages."""

@@ -1,0 +1,83 @@
+"""Surfaces as pixels, drawn by PyVista without a screen."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from bellows_design.errors import DesignError
+from bellows_design.web.scene import Field, Surface, frames_of
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+COLOURS = "viridis"
+
+
+@dataclass(frozen=True)
+class Look:
+    """How a surface is drawn: which field and frame, cut open along y or not, px."""
+
+    field: str = ""
+    frame: int = -1
+    cut: bool = False
+    size: tuple[int, int] = (900, 620)
+
+
+def rendered(surface: Surface, look: Look) -> NDArray[np.uint8]:
+    """Pixels (height, width, 3) of the surface.
+
+    Raises ``DesignError`` where nothing can be drawn: a machine without any way to do so.
+    """
+    import pyvista
+
+    try:
+        plotter = pyvista.Plotter(off_screen=True, window_size=look.size)
+        plotter.set_background("white")
+        plotter.add_mesh(_mesh(surface, look), **_options(surface, look))
+        plotter.view_vector((-0.55, -1.0, 0.45) if not look.cut else (0.0, -1.0, 0.18))
+        plotter.camera.zoom(1.45)
+        plotter.enable_anti_aliasing("ssaa")
+        pixels = plotter.screenshot(return_img=True)
+        plotter.close()
+    except Exception as error:  # VTK has no class of its own for this
+        raise DesignError(f"PyVista cannot draw on this machine: {error}.") from error
+    return np.asarray(pixels)
+
+
+def _mesh(surface: Surface, look: Look) -> Any:
+    import pyvista
+
+    positions = frames_of(surface)[look.frame]
+    mesh = pyvista.PolyData.from_regular_faces(positions, surface.triangles)
+    field = field_of(surface, look)
+    if field is not None:
+        values = np.asarray(field.values)
+        mesh[field.name] = values if values.ndim == 1 else values[look.frame]
+    return mesh.clip((0, 1, 0), origin=(0, 0, 0), invert=False) if look.cut else mesh
+
+
+def _options(surface: Surface, look: Look) -> dict[str, Any]:
+    """Colours of a field, or one colour."""
+    field = field_of(surface, look)
+    smooth = {"smooth_shading": True, "split_sharp_edges": True, "show_scalar_bar": False}
+    if field is None:
+        return smooth | {"color": "#86aed2"}
+    low, high = scale_of(field)
+    name = f"{COLOURS}_r" if field.reverse else COLOURS
+    return smooth | {"scalars": field.name, "cmap": name, "clim": (low, high), "nan_color": "grey"}
+
+
+def field_of(surface: Surface, look: Look) -> Field | None:
+    """The field that colours the surface."""
+    return next((each for each in surface.fields if each.name == look.field), None)
+
+
+def scale_of(field: Field) -> tuple[float, float]:
+    """Ends of its colours."""
+    values = np.asarray(field.values)
+    low = float(np.nanmin(values)) if field.low is None else field.low
+    high = float(np.nanmax(values)) if field.high is None else field.high
+    return low, high

@@ -1,0 +1,70 @@
+"""The part to turn around, with the thickness of its walls; and the actuator under pressure."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from bellows_design.reports.page.blocks import Block, Section, Sentences, Space
+from bellows_design.reports.page.thickness.surface import thickness_map
+from bellows_design.reports.page.wording import pressure_text
+from bellows_design.web.scene import Field, Surface
+
+if TYPE_CHECKING:
+    from bellows_design.deformed.surface import SurfaceFrames
+    from bellows_design.reports.page.findings import Findings
+
+NEAR_LIMIT = 0.4
+"""Of the limit: from such a stress on the colours end at the limit."""
+
+THICKNESS, STRESS = "wall thickness", "von Mises stress"
+
+
+def part(findings: Findings) -> Section:
+    """The printed part with its thickness map."""
+    found = findings.outcome
+    made = thickness_map(found.design, found.part.mesh)
+    colours = Field(THICKNESS, "mm", made.thickness, high=made.reach, reverse=True)
+    surface = Surface("part", made.triangles, made.positions, (colours,))
+    caption = (
+        "The printed part. Colours are the local thickness of the material below the surface, as "
+        f"the printer's rules measure it: the largest ball that touches both sides, up to "
+        f"{made.reach:g} mm. Turn it with mouse, finger or arrow keys; the section looks inside."
+    )
+    block = Space((surface,), caption, f"{found.design.name}, the printed part", THICKNESS)
+    return Section("part", "The part", (block,))
+
+
+def deformed(findings: Findings) -> Section:
+    """The whole actuator along its path, with its stresses."""
+    found, title = findings.deformed, "Under pressure"
+    if isinstance(found, str):
+        why = Sentences((f"There is no deformed shape: {found}.",))
+        return Section("deformed", title, (why,))
+    return Section("deformed", title, (_moving(findings, found),))
+
+
+def _moving(findings: Findings, found: SurfaceFrames) -> Block:
+    design = findings.outcome.design
+    limit = design.max_von_mises
+    colours = Field(STRESS, "MPa", found.von_mises, 0.0, _top(found, limit), limit)
+    labels = tuple(
+        f"{pressure_text(float(pressure))}, {angle:.0f}°"
+        for pressure, angle in zip(found.pressures_mpa, found.angles_deg, strict=True)
+    )
+    name = "actuator"
+    surface = Surface(name, found.triangles, found.positions, (colours,), labels)
+    caption = (
+        "The whole actuator, put together from the solution of its bubbles, from rest to "
+        f"{pressure_text(float(found.pressures_mpa[-1]))}: move the slider, or press [ and ]. "
+        "Shapes and colours are those of the coarsest mesh, whose stresses are somewhat off: the "
+        "finest one's highest stress stands on top of the page. At sharp edges without a fillet "
+        f"they depend on the mesh and do not count. The limit is {limit:g} MPa."
+    )
+    last = len(found.pressures_mpa) - 1
+    return Space((surface,), caption, f"{design.name} under pressure", STRESS, 520, last)
+
+
+def _top(found: SurfaceFrames, limit: float) -> float:
+    """Upper end of the colours: the limit, where the stress comes near it or passes it."""
+    highest = float(found.von_mises.max())
+    return limit if highest > NEAR_LIMIT * limit else highest or limit

@@ -1,0 +1,1 @@
+"""A dimensioned sketch of a part: sections of its mesh, true to scale, with the parameters."""

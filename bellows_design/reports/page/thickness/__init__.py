@@ -1,0 +1,1 @@
+"""How thick the material is below every point of a part's surface, for colours on it."""
