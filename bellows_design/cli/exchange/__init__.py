@@ -1,0 +1,1 @@
+"""``bellows mesh``: the body of a design for other programs."""

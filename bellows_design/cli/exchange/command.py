@@ -1,0 +1,68 @@
+"""The command ``bellows mesh`` and its options."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from bellows_design.cli.answer import answer
+from bellows_design.cli.options import (
+    AsJson,
+    BudgetOptions,
+    DesignName,
+    DesignOptions,
+    Memory,
+    MeshSeconds,
+    Settings,
+)
+
+
+class Body(StrEnum):
+    """A body that can be meshed."""
+
+    HALF = "half"
+    FULL = "full"
+    UNIT_CELL = "unit-cell"
+
+
+Output = Annotated[
+    Path,
+    typer.Option(
+        "-o",
+        "--output",
+        help="File to write: .inp (Abaqus, CalculiX), .vtk (SOFA), .msh, .vtu or .xdmf.",
+    ),
+]
+BodyName = Annotated[
+    Body | None, typer.Option(help="Body to mesh; without it half, for SOFA the full one.")
+]
+ProgramName = Annotated[
+    str | None,
+    typer.Option("--for", metavar="PROGRAM", help="abaqus (without it), calculix or sofa."),
+]
+Size = Annotated[
+    float | None,
+    typer.Option(metavar="MM", help="Largest edge, mm; without it the coarsest that bears."),
+]
+
+
+def mesh(
+    name: DesignName,
+    output: Output,
+    model: BodyName = None,
+    program: ProgramName = None,
+    size: Size = None,
+    settings: Settings = None,
+    memory: Memory = None,
+    mesh_seconds: MeshSeconds = None,
+    as_json: AsJson = False,
+) -> None:
+    """Write the mesh, or a deck, for Abaqus, CalculiX, SOFA and others."""
+    from bellows_design.cli.exchange.mesh import mesh as write
+
+    options = DesignOptions(name, tuple(settings or ()))
+    body, limits = None if model is None else model.value, BudgetOptions(memory, mesh_seconds)
+    answer(lambda: write(options, output, body, program, size, limits), as_json)
