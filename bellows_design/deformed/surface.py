@@ -1,0 +1,58 @@
+"""Surfaces for pages: flat triangles that close, from the six-node ones of a mesh."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from bellows_design.deformed.joined.sections import FOUR
+from solver.arrays import Integers, Reals
+
+MOST_POINTS = 25_000
+"""Above so many points of a surface only the corners of its triangles are shown."""
+
+
+@dataclass(frozen=True)
+class SurfaceFrames:
+    """A surface in several states.
+
+    Attributes:
+        triangles: node numbers, with outward normals.
+
+            *Shape:* (m, 3).
+        positions: of the nodes; those of frame 0 at rest.
+
+            *Shape:* (k, n, 3) in mm.
+        von_mises: Cauchy stress at the nodes.
+
+            *Shape:* (k, n) in MPa.
+        pressures_mpa: of the frames; negative for a vacuum.
+
+            *Shape:* (k,).
+        angles_deg: bending angles of the frames, past 360 where the tip curls on.
+
+            *Shape:* (k,).
+    """
+
+    triangles: Integers
+    positions: Reals
+    von_mises: Reals
+    pressures_mpa: Reals
+    angles_deg: Reals
+
+
+@dataclass(frozen=True)
+class FlatSurface:
+    """Flat triangles (m, 3) on some of a mesh's nodes: ``nodes`` (k,), ascending."""
+
+    triangles: Integers
+    nodes: Integers
+
+    @staticmethod
+    def of(six: Integers) -> FlatSurface:
+        """Four for each six-node triangle (t, 6); one where these would be too many points."""
+        fine = len(np.unique(six)) <= MOST_POINTS
+        flat = np.concatenate([six[:, each] for each in FOUR]) if fine else six[:, :3]
+        nodes, numbers = np.unique(flat, return_inverse=True)
+        return FlatSurface(numbers.reshape(flat.shape).astype(np.int32), nodes.astype(np.int32))
