@@ -63,6 +63,7 @@ from bellows_design.cli.options import (
     TrueStress,
     Units,
     Vtu,
+    VtuModel,
     WithSettings,
     YieldStrength,
 )
@@ -170,6 +171,7 @@ def evaluate(
     pressure: Pressure = None,
     accuracy: Accuracy = None,
     vtu: Vtu = None,
+    vtu_model: VtuModel = None,
     sensitivities: Derivatives = False,
     settings: Settings = None,
     memory: Memory = None,
@@ -181,7 +183,8 @@ def evaluate(
     """Compute bending angle and stress under pressure."""
     options = DesignOptions(name, tuple(settings or ()))
     limits = BudgetOptions(memory, mesh_seconds, seconds)
-    asked = (options, model.value, pressure, accuracy, vtu, limits)
+    pictured = actions.Pictured(vtu, vtu_model)
+    asked = (options, model.value, pressure, accuracy, pictured, limits)
     answer(lambda: actions.evaluate(*asked, not no_cache, sensitivities), as_json)
 
 

@@ -51,7 +51,11 @@ Accuracy = Annotated[
     typer.Option(metavar="PERCENT", help="Refine until the estimated errors are this small."),
 ]
 Vtu = Annotated[
-    Path | None, typer.Option(help="Also write the deformed mesh, for ParaView (.vtu).")
+    Path | None,
+    typer.Option(help="Also write the whole deformed actuator for ParaView (.vtu or .xdmf)."),
+]
+VtuModel = Annotated[
+    Path | None, typer.Option(help="Also write the body that was solved, a quarter bubble (.vtu).")
 ]
 Memory = Annotated[
     float | None,

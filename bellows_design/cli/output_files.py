@@ -9,15 +9,15 @@ from bellows_design.errors import DesignError
 from bellows_design.validation.quoting import quoted
 
 
-def require_file(path: Path | None, suffix: str) -> None:
-    """Refuse a file that cannot be written or whose name does not end in ``suffix``.
+def require_file(path: Path | None, *suffixes: str) -> None:
+    """Refuse a file that cannot be written or whose name ends in none of ``suffixes``.
 
     Raises ``DesignError``; nothing is refused where no file is wanted.
     """
     if path is None:
         return
-    if path.suffix.lower() != suffix:
-        raise DesignError(f"{quoted(str(path))} must end in {suffix}.")
+    if path.suffix.lower() not in suffixes:
+        raise DesignError(f"{quoted(str(path))} must end in {' or '.join(suffixes)}.")
     require_folder(path)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,25 +10,12 @@ from typing import TYPE_CHECKING
 
 from bellows_design.budget import DEFAULT, Budget
 from bellows_design.design.design import Design
-from bellows_design.errors import DesignError
+from bellows_design.exchange.formats import MODEL_FOR, check_model, names_of_files, program_for
 from bellows_design.files.atomic import replacing
-from bellows_design.validation.quoting import quoted
 
 if TYPE_CHECKING:
     from solver import Mesh, Problem
     from solver.exchange.abaqus.deck import Program
-
-FORMATS = {
-    ".inp": ("abaqus", "calculix"),
-    ".vtk": ("sofa",),
-    ".msh": ("",),
-    ".vtu": ("",),
-    ".xdmf": ("",),
-}
-"""Endings, and the programs that a file with each may be for; the first where none is named."""
-
-DEFAULT_MODEL = {"sofa": "full"}
-"""The model for a program where it is not half of the actuator."""
 
 Writer = Callable[[Path], None]
 
@@ -47,26 +34,6 @@ class Written:
     def mesh(self) -> Mesh:
         """The mesh in the files."""
         return self.problem.mesh
-
-
-def program_for(path: Path, program: str | None) -> str:
-    """The program that a file is for, by its ending; empty for a mesh and nothing else.
-
-    Raises ``DesignError`` for an ending that nothing is written with, or another program's.
-    """
-    suffix = path.suffix.lower()
-    if suffix not in FORMATS:
-        raise DesignError(f"{quoted(str(path))} must end in {_any_of(FORMATS)}.")
-    known = FORMATS[suffix]
-    if program is None:
-        return known[0]
-    if program not in known:
-        fitting = [ending for ending, programs in FORMATS.items() if program in programs]
-        if not fitting:
-            every = [name for programs in FORMATS.values() for name in programs if name]
-            raise DesignError(f"--for {quoted(program)} must be one of {', '.join(every)}.")
-        raise DesignError(f"a file for {program} must end in {_any_of(fitting)}.")
-    return program
 
 
 def write_design_mesh(
@@ -102,32 +69,13 @@ def write_design_mesh(
 
     target = Path(path)
     chosen = program_for(target, program)
-    body = model or DEFAULT_MODEL.get(chosen, "half")
-    _check_model(target, body)
+    body = model or MODEL_FOR.get(chosen, "half")
+    check_model(target, body)
     problem = design_problem(design, body, size, budget)
     notes: list[str] = []
     writers = _writers(design, problem, target, chosen, body, notes)
     _write_all(writers)
     return Written(problem, body, chosen, tuple(writers), tuple(notes))
-
-
-def names_of_files(path: Path, program: str) -> tuple[Path, ...]:
-    """The files that are written for a program."""
-    if program != "sofa":
-        return (path,)
-    return (
-        path,
-        path.with_name(f"{path.stem}_cavity.stl"),
-        path.with_name(f"{path.stem}_scene.py"),
-    )
-
-
-def _check_model(path: Path, model: str) -> None:
-    if path.suffix.lower() in (".inp", ".vtk") and model == "unit-cell":
-        raise DesignError(
-            f"{quoted(str(path))} holds loads as well, and no other program has the unit cell's "
-            "moving plane; take --model half or full, or a mesh: .msh, .vtu or .xdmf."
-        )
 
 
 def _writers(
@@ -182,8 +130,3 @@ def _write_all(writers: dict[Path, Writer]) -> None:
     with ExitStack() as stack:
         for path, write in writers.items():
             write(stack.enter_context(replacing(path)))
-
-
-def _any_of(words: Iterable[str]) -> str:
-    *others, last = words
-    return f"{', '.join(others)} or {last}" if others else last

@@ -25,7 +25,8 @@ def mesh(
     limits: BudgetOptions,
 ) -> Answer:
     """Mesh the design's body and write it for another program."""
-    from bellows_design.exchange.files import names_of_files, program_for, write_design_mesh
+    from bellows_design.exchange.files import write_design_mesh
+    from bellows_design.exchange.formats import names_of_files, program_for
 
     require_working_folder()
     require_address_space(EVALUATION)
