@@ -6,11 +6,16 @@ from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING
 
 import pytest
+from browser import no_browser, running_browser
 
 from printers import PrintersError
 from printers.slicing.finding import VARIABLE, find_slicer
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser
 
 
 @pytest.fixture(scope="session")
@@ -45,3 +50,23 @@ def no_slicer(monkeypatch: pytest.MonkeyPatch, request: pytest.FixtureRequest) -
         monkeypatch.setenv(VARIABLE, "")
     elif why := _no_slicer():
         pytest.skip(why)
+
+
+@pytest.fixture(autouse=True)
+def _skipped_without_browser(request: pytest.FixtureRequest) -> None:
+    """Tests that open pages are skipped where nothing can."""
+    if request.node.get_closest_marker("browser") is not None and (why := no_browser()):
+        pytest.skip(why)
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Browser]:
+    """A Chromium for tests that are marked `browser`; see tests/support/browser.py.
+
+    Playwright's event loop runs as long as it is there, so that no other can be started: it ends
+    with the module.
+    """
+    if why := no_browser():
+        pytest.skip(why)
+    with running_browser() as found:
+        yield found

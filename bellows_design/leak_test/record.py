@@ -9,13 +9,16 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass, field
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from bellows_design.design.conditions import LeakTestSetting
 from bellows_design.design.design import Design
 from bellows_design.geometry.tessellation import ClosedMesh
 from bellows_design.validation.quoting import reproducible
 from printers.report import RuleResult
+
+if TYPE_CHECKING:
+    from bellows_design.web.layers import PrintLayers
 
 RULE = "leak_test"
 """Name of the rule where the test itself is missing."""
@@ -40,6 +43,7 @@ class LeakOutcome:
         rules: Every rule of the leak test: a failed one speaks against the design.
         figures: What was measured, plain values for JSON.
         seconds: What slicing and testing took, s.
+        layers: What was laid down, and where it leaks, for a page; None where that was not kept.
     """
 
     slicer: str
@@ -48,6 +52,7 @@ class LeakOutcome:
     rules: tuple[RuleResult, ...]
     figures: Mapping[str, Any] = field(default_factory=dict)
     seconds: float = 0.0
+    layers: PrintLayers | None = field(default=None, repr=False, compare=False)
 
 
 @dataclass(frozen=True)

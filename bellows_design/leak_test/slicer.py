@@ -45,6 +45,7 @@ def tested(slicer: Slicer, design: Design, mesh: ClosedMesh) -> LeakOutcome:
 
     Raises ``PrintersError`` if it cannot be sliced or tested.
     """
+    from bellows_design.leak_test.layers import print_layers
     from printers.orientation.turning import AS_IN_FILE
     from printers.sliced_check import check_sliced
 
@@ -57,4 +58,5 @@ def tested(slicer: Slicer, design: Design, mesh: ClosedMesh) -> LeakOutcome:
         rules=found.leaks.rules,
         figures=found.leaks.figures() | {"notes": list(found.notes)},
         seconds=time.perf_counter() - started,
+        layers=print_layers(found.sliced, found.leaks),
     )
