@@ -29,7 +29,7 @@ from bellows_design.cli.checking.options import (
     Up,
 )
 from bellows_design.cli.comparing.command import compare
-from bellows_design.cli.exchange.command import mesh
+from bellows_design.cli.exchange.command import mesh, plate
 from bellows_design.cli.force.command import force
 from bellows_design.cli.options import (
     AcceptPoorFit,
@@ -84,6 +84,7 @@ app.command()(optimize)
 app.command()(force)
 app.command()(compare)
 app.command()(mesh)
+app.command()(plate)
 
 
 @app.callback(invoke_without_command=True)

@@ -8,9 +8,12 @@ from math import isfinite
 from typing import TypeAlias
 
 import cadquery as cq
+import numpy as np
+from numpy.typing import NDArray
 
 from bellows_design.design.design import Design
 from bellows_design.errors import DesignError
+from bellows_design.geometry.tessellation import ClosedMesh, tessellate
 from bellows_design.plugin.parts import part_of
 from bellows_design.plugin.subjects import Subject, design_of
 
@@ -26,18 +29,20 @@ ROUNDING = 1e-6
 
 @dataclass(frozen=True)
 class Piece:
-    """One copy of a design, at its place: ``location`` takes the part to it."""
+    """One copy of a design, at its place: ``location`` takes solid and mesh to it."""
 
     name: str
     design: Design
     solid: cq.Solid
+    mesh: ClosedMesh
     location: cq.Location
     colour: str
 
     @property
-    def placed(self) -> cq.Shape:
-        """The solid where it stands."""
-        return self.solid.moved(self.location)
+    def bounds(self) -> tuple[list[float], list[float]]:
+        """Lowest and highest coordinates where it stands, mm."""
+        places = placed(self.mesh, self.location)
+        return places.min(axis=0).tolist(), places.max(axis=0).tolist()
 
 
 def plate(
@@ -63,9 +68,15 @@ def plate(
     Raises:
         DesignError: they do not fit, there is none, or one is no design.
         GeometryError: The CAD kernel cannot build a part.
+        TessellationError: A part's triangles do not close.
     """
+    return assembly_of(pieces(designs, spacing, bed))
+
+
+def assembly_of(pieces: Sequence[Piece]) -> cq.Assembly:
+    """The assembly of placed pieces."""
     assembly = cq.Assembly(name="plate")
-    for piece in pieces(designs, spacing, bed):
+    for piece in pieces:
         assembly.add(piece.solid, name=piece.name, loc=piece.location, color=cq.Color(piece.colour))
     return assembly
 
@@ -79,13 +90,15 @@ def pieces(
         raise DesignError("a plate needs at least one design.")
     area = tuple(wanted[0].profile().build_volume) if bed is None else tuple(map(float, bed))
     _check(spacing, area)
-    solids = {design.digest: part_of(design) for design in wanted}
-    boxes = [_box(solids[design.digest]) for design in wanted]
+    solids = {digest: part_of(each) for digest, each in {one.digest: one for one in wanted}.items()}
+    meshes = {digest: tessellate(solid) for digest, solid in solids.items()}
+    boxes = [_box(meshes[design.digest]) for design in wanted]
     places = _arranged(boxes, spacing, area)
     colours = {digest: COLOURS[k % len(COLOURS)] for k, digest in enumerate(solids)}
     return [
-        Piece(name, design, solids[design.digest], place, colours[design.digest])
+        Piece(name, design, solids[key], meshes[key], place, colours[key])
         for name, design, place in zip(_names(wanted), wanted, places, strict=True)
+        for key in (design.digest,)
     ]
 
 
@@ -124,6 +137,21 @@ def _check(spacing: float, area: tuple[float, ...]) -> None:
         raise DesignError("bed must be two or three positive lengths in mm: width, depth, height.")
 
 
+def rows_of(location: cq.Location) -> NDArray[np.float64]:
+    """(4, 3): what x, y and z become, and the move; a point is a row before them."""
+    motion = location.wrapped.Transformation()
+    table = [[motion.Value(row, column) for row in range(1, 4)] for column in range(1, 5)]
+    rows: NDArray[np.float64] = np.array(table).round(9) + 0.0
+    return rows
+
+
+def placed(mesh: ClosedMesh, location: cq.Location) -> NDArray[np.float64]:
+    """Vertices (n, 3) of a mesh where a location takes them, mm."""
+    rows = rows_of(location)
+    vertices: NDArray[np.float64] = mesh.vertices @ rows[:3] + rows[3]
+    return vertices
+
+
 @dataclass(frozen=True)
 class Box:
     """Bounds of a part as it lies, mm: where it begins, and how large it is."""
@@ -132,9 +160,10 @@ class Box:
     size: tuple[float, float, float]
 
 
-def _box(solid: cq.Solid) -> Box:
-    bounds = solid.BoundingBox()
-    return Box((bounds.xmin, bounds.ymin, bounds.zmin), (bounds.xlen, bounds.ylen, bounds.zlen))
+def _box(mesh: ClosedMesh) -> Box:
+    """By the triangles: the CAD kernel's own boxes are some hundredths of a millimetre wider."""
+    low, high = mesh.vertices.min(axis=0), mesh.vertices.max(axis=0)
+    return Box(tuple(low.tolist()), tuple((high - low).tolist()))
 
 
 def _arranged(boxes: list[Box], spacing: float, area: tuple[float, ...]) -> list[cq.Location]:
@@ -162,7 +191,7 @@ def _arranged(boxes: list[Box], spacing: float, area: tuple[float, ...]) -> list
 
 
 def _rows(
-    sizes: list[tuple[float, ...]], spacing: float, width: float
+    sizes: Sequence[tuple[float, ...]], spacing: float, width: float
 ) -> tuple[list[tuple[float, float]], tuple[float, float]]:
     """Corners (x, y) of boxes in rows of at most ``width``, the deepest first, and the extent."""
     corners = [(0.0, 0.0)] * len(sizes)

@@ -1,1 +1,1 @@
-"""``bellows mesh``: the body of a design for other programs."""
+"""``bellows mesh`` and ``bellows plate``: designs for other programs, and several in one file."""

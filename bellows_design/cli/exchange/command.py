@@ -1,4 +1,4 @@
-"""The command ``bellows mesh`` and its options."""
+"""The commands ``bellows mesh`` and ``bellows plate``, and their options."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ from bellows_design.cli.options import (
     DesignOptions,
     Memory,
     MeshSeconds,
+    Printer,
     Settings,
 )
 
@@ -66,3 +67,23 @@ def mesh(
     options = DesignOptions(name, tuple(settings or ()))
     body, limits = None if model is None else model.value, BudgetOptions(memory, mesh_seconds)
     answer(lambda: write(options, output, body, program, size, limits), as_json)
+
+
+def plate(
+    designs: Annotated[
+        list[str],
+        typer.Argument(metavar="DESIGN...", help="Designs; finger:3 for three of one."),
+    ],
+    output: Annotated[
+        Path, typer.Option("-o", "--output", help="File to write: .3mf, .step or .stl.")
+    ],
+    spacing: Annotated[
+        float, typer.Option(metavar="MM", help="Least distance between two parts, mm.")
+    ] = 5.0,
+    printer: Printer = None,
+    as_json: AsJson = False,
+) -> None:
+    """Put several actuators on one printer's bed, in one file."""
+    from bellows_design.cli.exchange.plate import plate as arrange
+
+    answer(lambda: arrange(designs, output, spacing, printer), as_json)

@@ -11,9 +11,10 @@ import numpy as np
 from solver.errors import SolverError
 from solver.exchange.abaqus.boundary import held_lines, moved_lines
 from solver.exchange.abaqus.loads import load_lines
-from solver.exchange.abaqus.materials import material_lines
+from solver.exchange.abaqus.materials import differences, material_lines
 from solver.exchange.abaqus.mesh_text import mesh_text, parts
 from solver.input_types import check_instance, check_number, file_path
+from solver.material.law import Hyperelastic
 from solver.problem.problem import Problem
 
 Program = Literal["abaqus", "calculix"]
@@ -51,7 +52,7 @@ def write_deck(
         title: a line for the head.
 
     Returns:
-        What the deck leaves out, a sentence each: contact.
+        What the deck leaves out (contact) and what differs in its materials, a sentence each.
 
     Raises:
         SolverError: another ending or program; a moving plane, springs, membranes, motions that do
@@ -66,19 +67,19 @@ def write_deck(
     if program not in ELEMENTS:
         raise SolverError(f"write_deck: program must be abaqus or calculix, got {program!r}.")
     _check_problem(problem, pressure)
-    left_out = _left_out(problem)
-    lines = _lines(problem, pressure, program, title, left_out)
+    notes = (*_left_out(problem), *_of_materials(problem, program))
+    lines = _lines(problem, pressure, program, title, notes)
     place.write_text("\n".join(lines) + "\n", "utf-8")
-    return left_out
+    return notes
 
 
 def _lines(
-    problem: Problem, pressure: float, program: str, title: str, left_out: tuple[str, ...]
+    problem: Problem, pressure: float, program: str, title: str, notes: tuple[str, ...]
 ) -> Iterator[str]:
     yield "*HEADING"
     yield " ".join(title.split()) or "written by bellows-design"
     yield f"** for {program}; mm, N, MPa"
-    yield from (f"** left out: {sentence}" for sentence in left_out)
+    yield from (f"** note: {sentence}" for sentence in notes)
     yield from mesh_text(problem.mesh, ELEMENTS[program])
     yield from _materials(problem, program)
     yield from held_lines(problem)
@@ -93,12 +94,27 @@ def _lines(
 
 def _materials(problem: Problem, program: str) -> Iterator[str]:
     """Sections and materials, those that some element has."""
-    others = problem.materials
-    used = {name: name if name in others else MAIN for name in parts(problem.mesh)}
-    for part, material in used.items():
-        yield f"*SOLID SECTION, ELSET={part}, MATERIAL={material}"
-    for name in dict.fromkeys(used.values()):
-        yield from material_lines(name, others.get(name, problem.material), program)
+    for part, name in _used(problem).items():
+        yield f"*SOLID SECTION, ELSET={part}, MATERIAL={name}"
+    for name in dict.fromkeys(_used(problem).values()):
+        yield from material_lines(name, _material(problem, name), program)
+
+
+def _used(problem: Problem) -> dict[str, str]:
+    """Names of the parts of the mesh that have elements, and of the material of each."""
+    return {name: name if name in problem.materials else MAIN for name in parts(problem.mesh)}
+
+
+def _material(problem: Problem, name: str) -> Hyperelastic:
+    return problem.materials.get(name, problem.material)
+
+
+def _of_materials(problem: Problem, program: str) -> Iterator[str]:
+    """What differs in the materials, each sentence once."""
+    names = dict.fromkeys(_used(problem).values())
+    yield from dict.fromkeys(
+        sentence for name in names for sentence in differences(_material(problem, name), program)
+    )
 
 
 def _output(program: str) -> Iterator[str]:
@@ -136,6 +152,6 @@ def _left_out(problem: Problem) -> tuple[str, ...]:
     if not problem.contacts:
         return ()
     return (
-        f"{len(problem.contacts)} contacts between walls, or of walls with planes: compare at "
-        "pressures below the first touch",
+        f"{len(problem.contacts)} contacts of walls with each other or with planes are left out: "
+        "compare at pressures below the first touch",
     )

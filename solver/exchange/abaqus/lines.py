@@ -76,7 +76,7 @@ def _block(content: str, place: str) -> Block:
 
 def _add_data(found: list[Block], content: str, place: str) -> None:
     if not found:
-        raise SolverError(f"{place}: data stand before the first keyword; is it an input file?")
+        raise SolverError(f"{place}: data stand before the first keyword, as in no input file.")
     fields = [each.strip().strip('"') for each in content.split(",")]
     found[-1].lines.append(Line(place, fields))
 

@@ -39,29 +39,37 @@ def material_lines(name: str, material: Hyperelastic, program: str) -> Iterator[
     Raises ``SolverError`` for an energy that the program does not have.
     """
     yield f"*MATERIAL, NAME={name}"
-    yield from notes(material, program)
     kind, values, order = _law(name, material, program)
     yield f"*HYPERELASTIC, {kind}"
     first, *rest = _bulk_constants(material, program, order)
     yield from _rows([*values, first, *rest])
 
 
-def notes(material: Hyperelastic, program: str) -> Iterator[str]:
-    """Comments on what differs from the material as it is computed with here."""
+def differences(material: Hyperelastic, program: str) -> Iterator[str]:
+    """What differs from the material as it is computed with here, a sentence each."""
     if program == "calculix" and math.isinf(material.bulk_modulus):
         yield (
-            f"** incompressible elsewhere; here K = {BULK_TO_SHEAR:g} shear moduli, as CalculiX "
-            "has no hybrid element"
+            f"incompressible rubber has a bulk modulus of {BULK_TO_SHEAR:g} shear moduli, as "
+            "CalculiX has no hybrid element"
         )
     elif math.isfinite(material.bulk_modulus) and material.volumetric == "logarithmic":
-        yield "** volumetric part K (J - 1)^2 / 2 instead of K (J^2 - 1 - 2 ln J) / 4"
-    if program == "calculix" and isinstance(material, Ogden):
-        small = [alpha for alpha in material.alpha if abs(alpha) < SMALLEST_ALPHA]
-        for alpha in small:
-            yield (
-                f"** the term of alpha = {alpha:g} is two of alpha = +-{SMALLEST_ALPHA:g}, the "
-                "same to third order in the log strain"
-            )
+        yield "the volumetric part is K (J - 1)^2 / 2 instead of K (J^2 - 1 - 2 ln J) / 4"
+    if program == "calculix" and isinstance(material, Ogden) and not _has_invariants(material):
+        yield (
+            "CalculiX's form of Ogden's law diverges in thin-walled bodies; laws of the invariants "
+            "(Yeoh's, Mooney and Rivlin's) do not"
+        )
+        for alpha in material.alpha:
+            if abs(alpha) < SMALLEST_ALPHA:
+                yield (
+                    f"Ogden's term of alpha = {alpha:g} is two of +-{SMALLEST_ALPHA:g}, the same "
+                    "to third order in the log strain"
+                )
+
+
+def _has_invariants(material: Ogden) -> bool:
+    """Whether an energy is one of I1 and I2."""
+    return set(material.alpha) <= {2.0, -2.0}
 
 
 def compressible(material: Hyperelastic, program: str) -> float:
@@ -83,7 +91,7 @@ def _law(name: str, material: Hyperelastic, program: str) -> tuple[str, list[flo
         return "POLYNOMIAL, N=2", [c.c10, c.c01, c.c20, c.c11, c.c02], 2
     if not isinstance(material, Ogden):
         raise SolverError(f"deck: {type(material).__name__} has no form in an input file.")
-    if set(material.alpha) <= {2.0, -2.0}:
+    if _has_invariants(material):
         return _polynomial(name, material)
     if material.higher:
         raise SolverError(

@@ -100,7 +100,8 @@ class _Reader:
         )
 
     def found(self) -> Found:
-        """All of it, numbered from 0. Raises ``SolverError`` for numbers that name nothing."""
+        """All of it, numbered from 0 by labels. ``SolverError`` for numbers that name nothing."""
+        self.nodes, self.tets = dict(sorted(self.nodes.items())), dict(sorted(self.tets.items()))
         labels = np.fromiter(self.nodes, np.int64, len(self.nodes))
         numbering = Numbering("node", labels)
         tets = self._cells(self.tets, numbering)
