@@ -27,7 +27,7 @@ def design_problem(
         design: What is meshed.
         model: ``half``, ``full`` or ``unit-cell``.
         size: Largest edge of a tetrahedron, mm; without it 1.33 thinnest walls, the coarsest mesh
-            that carries the load.
+            that carries the load. Below that fillets get six edges on a circle at least.
         budget: Memory (GiB) that solving on the mesh may take, and seconds to make it.
 
     Returns:
@@ -45,7 +45,12 @@ def design_problem(
 
 
 def _plan(design: Design, solid: Meshable, size: float | None) -> PlannedMesh:
-    from bellows_design.analysis.mesh_plan import ELEMENTS_PER_CIRCLE, PlannedMesh, first_plan
+    from bellows_design.analysis.mesh_plan import (
+        COARSEST_EDGE,
+        ELEMENTS_PER_CIRCLE,
+        PlannedMesh,
+        first_plan,
+    )
     from bellows_design.analysis.models import thinnest_wall
     from solver.meshing import MeshOptions
 
@@ -57,4 +62,5 @@ def _plan(design: Design, solid: Meshable, size: float | None) -> PlannedMesh:
             f"size = {size:g} mm must lie between {FINEST * wall:g} and {COARSEST * wall:g} mm, "
             f"{FINEST:g} and {COARSEST:g} of the thinnest wall."
         )
-    return PlannedMesh(solid, MeshOptions(size, ELEMENTS_PER_CIRCLE, min(0.1, wall / 8, size)))
+    round_edges = ELEMENTS_PER_CIRCLE if size < COARSEST_EDGE * wall else 0.0
+    return PlannedMesh(solid, MeshOptions(size, round_edges, min(0.1, wall / 8, size)))

@@ -71,16 +71,16 @@ def cantilever(
 # what an energy is ------------------------------------------------------------------------------
 
 
-def energy_of(kind: str, values: list[float], l: np.ndarray) -> float:
+def energy_of(kind: str, values: list[float], stretches: np.ndarray) -> float:
     """Isochoric energy of an input file's constants at principal stretches whose product is 1.
 
     Written down from the manuals (Abaqus, CalculiX), apart from the code that writes them.
     """
-    i1, i2 = (l**2).sum() - 3, (l**-2.0).sum() - 3
+    i1, i2 = (stretches**2).sum() - 3, (stretches**-2.0).sum() - 3
     name, _, order = kind.partition(", N=")
     if name == "OGDEN":
         pairs = np.reshape(values[: 2 * int(order)], (-1, 2))
-        return float(sum(2 * mu / a**2 * ((l**a).sum() - 3) for mu, a in pairs))
+        return float(sum(2 * mu / a**2 * ((stretches**a).sum() - 3) for mu, a in pairs))
     if name == "NEO HOOKE":
         return values[0] * i1
     if name == "MOONEY-RIVLIN":
@@ -113,14 +113,16 @@ def test_the_constants_are_the_energy(material: Hyperelastic, program: str) -> N
     kind, values = head.removeprefix("*HYPERELASTIC, "), numbers(data)
     for stretch in (0.7, 0.95, 1.2, 1.6):
         for other in (stretch**-0.5, 1.0):
-            l = np.array([stretch, other, 1 / (stretch * other)])
+            stretches = np.array([stretch, other, 1 / (stretch * other)])
             tolerance = 1e-9
             if program == "calculix" and any(
                 abs(alpha) < SMALLEST_ALPHA for alpha in getattr(material, "alpha", ())
             ):
-                tolerance = SMALLEST_ALPHA**2 * np.abs(np.log(l)).max() ** 2 / 12
-            expected = material.energy(np.log(l))
-            assert energy_of(kind, values, l) == pytest.approx(expected, rel=tolerance + 1e-7)
+                tolerance = SMALLEST_ALPHA**2 * np.abs(np.log(stretches)).max() ** 2 / 12
+            expected = material.energy(np.log(stretches))
+            assert energy_of(kind, values, stretches) == pytest.approx(
+                expected, rel=tolerance + 1e-7
+            )
 
 
 @pytest.mark.parametrize("program", ["abaqus", "calculix"])

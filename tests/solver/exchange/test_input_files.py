@@ -1,4 +1,4 @@
-"""Input files of Abaqus and CalculiX as people have them: their forms, and what is wrong in them."""
+"""Input files of Abaqus and CalculiX: the forms that people have, and what is wrong in them."""
 
 from __future__ import annotations
 
