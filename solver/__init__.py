@@ -14,6 +14,9 @@ from solver.lazy_names import imported_when_asked_for
 
 if TYPE_CHECKING:
     from solver.adaptivity.transfer import transfer
+    from solver.exchange.abaqus.deck import write_deck
+    from solver.exchange.reading import read_mesh
+    from solver.exchange.writing import write_mesh
     from solver.material.ogden import Ogden
     from solver.mesh.mesh import Mesh
     from solver.nonlinear.checkpoint import Checkpoint
@@ -115,6 +118,7 @@ __all__ = [
     "peaks_by_region",
     "potential",
     "reaction",
+    "read_mesh",
     "rotation",
     "section_response",
     "sensitivities",
@@ -124,6 +128,8 @@ __all__ = [
     "trace",
     "transfer",
     "work",
+    "write_deck",
+    "write_mesh",
     "write_vtu",
 ]
 
@@ -132,6 +138,9 @@ __getattr__ = imported_when_asked_for(
     __name__,
     {
         "adaptivity.transfer": ("transfer",),
+        "exchange.abaqus.deck": ("write_deck",),
+        "exchange.reading": ("read_mesh",),
+        "exchange.writing": ("write_mesh",),
         "material.ogden": ("Ogden",),
         "mesh.mesh": ("Mesh",),
         "paths.arc_length": ("Trace", "trace"),

@@ -5,7 +5,9 @@ Heavy modules are imported once the input is known to be good.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -61,12 +63,44 @@ def design(options: DesignOptions, output: Path, with_settings: bool = False) ->
     return Answer(content, [f"{output}: {triangles} triangles, {volume / 1000:.2f} cm³"])
 
 
+@dataclass(frozen=True)
+class Pictured:
+    """Files for ParaView: ``whole`` of the deformed actuator, ``model`` of the body solved."""
+
+    whole: Path | None = None
+    model: Path | None = None
+
+    def of_body(self) -> Path | None:
+        """The file of an own body, whose model is the whole. Raises ``DesignError``."""
+        if self.model is not None:
+            raise DesignError("--vtu-model: an own body is its own model; take --vtu.")
+        return self.whole
+
+    def require(self) -> None:
+        """Raise ``DesignError`` or ``CannotWrite`` for a file that cannot be written."""
+        from bellows_design.exchange.formats import ACTUATOR_SUFFIXES
+
+        require_file(self.whole, *ACTUATOR_SUFFIXES)
+        require_file(self.model, ".vtu")
+
+    def writers(self, found: Evaluation) -> Iterator[Callable[[], None]]:
+        """What writes the files that are wanted."""
+        if self.whole is not None:
+            from bellows_design.exchange.actuator import write_actuator
+
+            yield partial(write_actuator, found, self.whole)
+        if self.model is not None:
+            from bellows_design.analysis.evaluate import write_vtu
+
+            yield partial(write_vtu, found, self.model)
+
+
 def evaluate(
     options: DesignOptions,
     model: str,
     pressure: str | None,
     accuracy: float | None,
-    vtu: Path | None,
+    pictured: Pictured,
     limits: BudgetOptions,
     cached: bool,
     derivatives: bool = False,
@@ -86,10 +120,9 @@ def evaluate(
     pressures = () if pressure is None else parse_pressures(pressure)
     body, budget = body_named(options, model, derivatives), limits.budget()
     if body is not None:
-        return own_body.evaluate(body, pressures, accuracy, vtu, budget)
+        return own_body.evaluate(body, pressures, accuracy, pictured.of_body(), budget)
     chosen = options.load(pressures[-1] if pressures else None)
-    require_file(vtu, ".vtu")
-    from bellows_design.analysis import evaluate as analysis
+    pictured.require()
     from bellows_design.store import evaluated
 
     with solving() as progress:
@@ -97,8 +130,7 @@ def evaluate(
         found = evaluated(
             chosen, model, accuracy, pressures, progress, budget, store=store, keep=derivatives
         )
-        writers = () if vtu is None else (lambda: analysis.write_vtu(found, vtu),)
-        failed = unwritten(*writers)
+        failed = unwritten(*pictured.writers(found))
         changes = _sensitivities(found, progress) if derivatives else ""
     status = DONE if found.converged else NOT_SOLVED
     content = found.to_dict() | {"from_cache": found.from_cache or None}

@@ -30,6 +30,7 @@ from bellows_design.cli.checking.options import (
 )
 from bellows_design.cli.comparing.command import compare
 from bellows_design.cli.completion.options import complete_schema, complete_source
+from bellows_design.cli.exchange.command import mesh, plate
 from bellows_design.cli.force.command import force
 from bellows_design.cli.layout import panels
 from bellows_design.cli.layout.group import Commands
@@ -68,6 +69,7 @@ from bellows_design.cli.options import (
     TrueStress,
     Units,
     Vtu,
+    VtuModel,
     WithSettings,
     YieldStrength,
 )
@@ -128,6 +130,20 @@ app.command(
         "bellows studio my_finger.toml --output models",
     ),
 )(studio)
+app.command(
+    rich_help_panel=panels.TOOLS,
+    epilog=examples(
+        "bellows mesh finger -o finger.inp",
+        "bellows mesh finger -o finger.vtk --for sofa",
+    ),
+)(mesh)
+app.command(
+    rich_help_panel=panels.PRINT,
+    epilog=examples(
+        "bellows plate finger:3 -o plate.3mf",
+        "bellows plate finger my_finger.toml -o plate.step --spacing 8",
+    ),
+)(plate)
 
 
 @app.callback(invoke_without_command=True)
@@ -271,6 +287,7 @@ def evaluate(
     pressure: Pressure = None,
     accuracy: Accuracy = None,
     vtu: Vtu = None,
+    vtu_model: VtuModel = None,
     sensitivities: Derivatives = False,
     settings: Settings = None,
     memory: Memory = None,
@@ -283,7 +300,8 @@ def evaluate(
     """Compute bending angle and stress under pressure."""
     options = DesignOptions(name, tuple(settings or ()))
     limits = BudgetOptions(memory, mesh_seconds, seconds)
-    asked = (options, model.value, pressure, accuracy, vtu, limits)
+    pictured = actions.Pictured(vtu, vtu_model)
+    asked = (options, model.value, pressure, accuracy, pictured, limits)
     answer(lambda: actions.evaluate(*asked, not no_cache, sensitivities), as_json, quiet)
 
 

@@ -92,7 +92,15 @@ Vtu = Annotated[
     Path | None,
     typer.Option(
         metavar="FILE",
-        help="Also write the deformed mesh, for ParaView (.vtu).",
+        help="Also write the whole deformed actuator for ParaView (.vtu or .xdmf).",
+        rich_help_panel=panels.FILES,
+    ),
+]
+VtuModel = Annotated[
+    Path | None,
+    typer.Option(
+        metavar="FILE",
+        help="Also write the body that was solved, a quarter bubble (.vtu).",
         rich_help_panel=panels.FILES,
     ),
 ]

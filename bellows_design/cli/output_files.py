@@ -9,16 +9,17 @@ from bellows_design.errors import DesignError
 from bellows_design.validation.quoting import quoted
 
 
-def require_file(path: Path | None, suffix: str) -> None:
-    """Refuse a file that cannot be written or whose name does not end in ``suffix``.
+def require_file(path: Path | None, *suffixes: str) -> None:
+    """Refuse a file that cannot be written or whose name ends in none of ``suffixes``.
 
     Raises ``DesignError``; nothing is refused where no file is wanted.
     """
     if path is None:
         return
-    if path.suffix.lower() != suffix:
-        hint = f"; did you mean {quoted(str(path.with_suffix(suffix)))}?" if path.name else "."
-        raise DesignError(f"{quoted(str(path))} must end in {suffix}{hint}")
+    if path.suffix.lower() not in suffixes:
+        named = " or ".join(suffixes)
+        hint = f"; did you mean {quoted(str(path.with_suffix(suffixes[0])))}?" if path.name else "."
+        raise DesignError(f"{quoted(str(path))} must end in {named}{hint}")
     require_folder(path)
 
 

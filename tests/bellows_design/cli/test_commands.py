@@ -76,7 +76,7 @@ def test_list_names_every_shipped_design(bellows: Bellows) -> None:
         (["run", "prototype_1", "--set", "name=../x"], "name is “../x”"),
         (["design", "prototype_1", "-o", "part.obj"], "must end in .stl"),
         (["design", "prototype_1", "-o", "no/where/part.stl"], "there is no folder"),
-        (["evaluate", "prototype_1", "--vtu", "bent.txt"], "must end in .vtu"),
+        (["evaluate", "prototype_1", "--vtu", "bent.txt"], "must end in .vtu or .xdmf"),
         (["check", "prototype_1", "--printer", "no_such"], "no_such"),
         (["run", "prototype_1", "--set", "printer=no_such"], "no_such"),
     ],

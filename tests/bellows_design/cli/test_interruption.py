@@ -64,7 +64,9 @@ pipeline.check = lambda *_: fake_report()
 sys.modules["bellows_design.analysis.evaluate"] = SimpleNamespace(
     evaluate=lambda *_, **__: FakeEvaluation(),
     refined=None,
-    write_vtu=lambda result, path: write(path),
+)
+sys.modules["bellows_design.exchange.actuator"] = SimpleNamespace(
+    write_actuator=lambda result, path: write(path),
 )
 study = SimpleNamespace(to_dict=lambda: {"meshes": []}, converged=True)
 sys.modules["bellows_design.benchmark.study"] = SimpleNamespace(

@@ -20,7 +20,7 @@ from bellows_design.design.port import Port
 from bellows_design.design.shipped import load_design
 from bellows_design.geometry.actuator import printed_part
 
-SCRIPT = Path(__file__).parents[2] / "examples/design_script.py"
+SCRIPT = Path(__file__).parents[3] / "examples/design_script.py"
 BELLOWS = BellowsParameters.model_validate(
     {**load_design("prototype_1").bellows.model_dump(), "length": 18, "number_of_bubbles": 1}
 )

@@ -1,0 +1,1 @@
+"""``bellows mesh`` and ``bellows plate``: designs for other programs, and several in one file."""

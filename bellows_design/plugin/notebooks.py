@@ -1,0 +1,29 @@
+"""``%load_ext bellows_design.plugin``: notebooks show designs and evaluations in 3D."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from bellows_design.analysis.evaluation import Evaluation
+from bellows_design.design.design import Design
+from bellows_design.plugin.preview import preview
+
+KINDS: tuple[type, ...] = (Design, Evaluation)
+
+
+def load_ipython_extension(shell: Any) -> None:
+    """Show every design and evaluation by its preview, in this notebook."""
+    html = shell.display_formatter.formatters["text/html"]
+    for kind in KINDS:
+        html.for_type(kind, _html)
+
+
+def unload_ipython_extension(shell: Any) -> None:
+    """Show them as text again."""
+    html = shell.display_formatter.formatters["text/html"]
+    for kind in KINDS:
+        html.pop(kind, None)
+
+
+def _html(shown: Design | Evaluation) -> str:
+    return preview(shown)._repr_html_()

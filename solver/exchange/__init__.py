@@ -1,0 +1,1 @@
+"""Meshes and problems as files of other programs, and meshes from such files."""

@@ -1,0 +1,1 @@
+"""Input files of Abaqus and CalculiX: meshes read and written, problems written as decks."""
