@@ -47,12 +47,12 @@ class Count:
 def key_of(name: str) -> tuple[str, int]:
     """What a stage is known by in every run, and its size: the same stage has other numbers.
 
-    Numbers of meshes count: ``mesh 2`` is not ``mesh 3``.
+    Numbers of meshes count: ``mesh 2`` is not ``mesh 3``, nor ``solve 2`` ``solve 3``.
     """
     sized = _SIZE.match(name)
     if sized is not None:
         return sized["what"], int(sized["size"])
-    return (name, 0) if name.startswith("mesh ") else (_NUMBER.sub("#", name), 0)
+    return (name, 0) if name.startswith(("mesh ", "solve ")) else (_NUMBER.sub("#", name), 0)
 
 
 def count_in(text: str) -> Count | None:

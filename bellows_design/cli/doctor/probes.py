@@ -14,8 +14,8 @@ from importlib import import_module
 from typing import Any
 
 LIGHT = (
-    "numpy", "scipy.sparse", "pydantic", "rich", "typer", "psutil", "platformdirs", "trimesh",
-    "rtree", "manifold3d", "lib3mf", "meshio",
+    "numpy", "scipy.sparse", "pydantic", "rich", "typer", "psutil", "platformdirs", "rtree",
+    "trimesh", "manifold3d", "lib3mf", "meshio",
 )  # fmt: skip
 """Modules of the core that load fast; others have a probe of their own."""
 

@@ -45,10 +45,10 @@ class Commands(TyperGroup):
         remember(f"{above}{found[0]}")
         return found
 
-    def main(
-        self, args: Sequence[str] | None = None, standalone_mode: bool = True, **settings: Any
-    ) -> Any:
+    def main(self, *positional: Any, **settings: Any) -> Any:
         """Run the command and end with its status; a mistake of usage is one sentence."""
+        args = positional[0] if positional else settings.pop("args", None)
+        standalone = settings.pop("standalone_mode", True)
         given = list(sys.argv[1:] if args is None else args)
         remember("")
         try:
@@ -57,7 +57,7 @@ class Commands(TyperGroup):
             status = self._mistaken(error, given)
             if status is None:
                 raise
-        if not standalone_mode:
+        if not standalone:
             return status
         sys.exit(status if isinstance(status, int) else 0)
 

@@ -7,6 +7,7 @@ does not do, each row becomes a few lines, one for each cell behind the heading 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from copy import deepcopy
 from typing import TYPE_CHECKING, cast
 
 from rich.measure import Measurement
@@ -56,6 +57,7 @@ def _fitted_table(table: Table, console: Console) -> Iterator[RenderableType]:
     if _frame(table, console) + sum(_natural(table, console)) <= console.width:
         yield table
         return
+    table = deepcopy(table)  # whose columns are changed; its owner may print it elsewhere
     for comfort, padding in ((COMFORTABLE, None), (TIGHT, None), (TIGHT, (0, 0))):
         if padding is not None:
             table.padding, table.pad_edge = padding, False
