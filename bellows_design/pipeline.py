@@ -71,7 +71,7 @@ class Outcome:
 
 def run(
     design: Design,
-    output_root: Path,
+    output_root: Path | str,
     progress: Progress = SILENCE,
     budget: Budget = DEFAULT,
     store: Store | None = None,
@@ -100,6 +100,7 @@ def run(
     """
     from bellows_design.export.approved import require_place
 
+    output_root = Path(output_root)
     require_place(design.name, output_root)
     found = examine(design, progress, budget, store, leak_tester)
     return _settled(found, output_root)
@@ -230,12 +231,14 @@ def build_part(design: Design) -> Part:
     return Part(design.name, design.description, design.digest, solid, mesh, profile)
 
 
-def check(design: Design, part: Part, printer: str | None = None) -> PrintabilityReport:
-    """Printability of ``part``.
+def check(
+    design: Design, part: Part | None = None, printer: str | None = None
+) -> PrintabilityReport:
+    """Printability of ``design``'s part.
 
     Args:
         design: Declares walls, gaps, the port's opening and the limits of the cross-section, mm.
-        part: What ``build_part`` made of it.
+        part: What ``build_part`` made of it; None where it is not at hand, and is built.
         printer: Name of a printer profile, or path of a TOML file, instead of the design's.
 
     Returns:
@@ -243,12 +246,14 @@ def check(design: Design, part: Part, printer: str | None = None) -> Printabilit
 
     Raises:
         PrintersError: No such profile, or one that is none.
+        BellowsError: As ``build_part``, where the part is built here.
     """
     from bellows_design.printability import printed_model
     from printers import check_printability, load_profile
 
     profile = design.profile() if printer is None else load_profile(printer)
-    return check_printability(printed_model(design, part.mesh), profile)
+    mesh = (part or build_part(design)).mesh
+    return check_printability(printed_model(design, mesh), profile)
 
 
 def _settled(found: Outcome, output_root: Path) -> Outcome:
