@@ -31,6 +31,7 @@ __all__ = [
     "BodyEvaluation",
     "Computation",
     "Evaluation",
+    "LoadedState",
     "NeighbourEvaluation",
     "Neighbourhood",
     "Pool",
@@ -92,18 +93,33 @@ def evaluate(
 ) -> Evaluation | NeighbourEvaluation | BodyEvaluation:
     """Evaluate ``design``: by itself, or starting from a neighbour (``near``).
 
-    Without ``near`` this is ``analysis.evaluate.evaluate``, and so are all other arguments; of a
-    body of one's own ``own_body.analysis.evaluate.evaluate``, which has one model only.
-
     Args:
+        design: A design of bellows, or a body of one's own, at its design pressure, MPa.
+        model: The body that stands for an actuator: ``auto`` (the smallest that answers),
+            ``unit-cell``, ``half`` or ``full``. A body of one's own has no other.
+        accuracy_percent: Refine the mesh until both error estimates are this small, percent.
+        pressures: Further pressures of the curve, between 0 and the design's, MPa.
+        progress: Listens to stages and load.
+        budget: Memory (GiB) and seconds that a mesh may take. Refinement ends before a mesh that
+            would exceed it; the error estimates then say what was reached.
+        open_question: Asked with the state on the finest mesh what its error estimates leave open,
+            as text; empty if nothing. The mesh is refined further for it.
+        keep: Keep the factors of the finest mesh's tangent with the result, for its
+            ``sensitivities``; about a hundred megabytes for five thousand tetrahedra.
         near: An evaluation of a design that differs by little. Its mesh is moved and its
             equilibrium is the start, which costs about a tenth. Its model, accuracy and ends are
             taken over. Where that fails the design is evaluated by itself; the result says so.
             From an ordinary evaluation the first neighbour takes longer: pass its result on, or a
             ``Neighbourhood`` or ``Pool``.
 
+    Returns:
+        Angle, stress, volume, strain and contact at the pressure reached, with estimated errors;
+        with ``converged`` False, of the last good state, where the load could not be reached.
+
     Raises:
-        BellowsError: As without ``near``; also for ``near`` with a model, accuracy or pressures.
+        BellowsError: Unknown model, accuracy or pressures out of bounds, a geometry the CAD kernel
+            refuses, a first mesh that exceeds the budget, or ``near`` with a model, accuracy or
+            pressures.
         MeshingError: No usable mesh, or none in time.
     """
     if isinstance(design, OwnBody):

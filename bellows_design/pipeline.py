@@ -82,7 +82,7 @@ Reporter = Callable[[Outcome, Mapping[str, bytes]], bytes]
 
 def run(
     design: Design,
-    output_root: Path,
+    output_root: Path | str,
     progress: Progress = SILENCE,
     budget: Budget = DEFAULT,
     store: Store | None = None,
@@ -114,6 +114,7 @@ def run(
     """
     from bellows_design.export.approved import require_place
 
+    output_root = Path(output_root)
     require_place(design.name, output_root)
     found = examine(design, progress, budget, store, leak_tester)
     return _settled(found, output_root, reporter, progress)
@@ -133,7 +134,21 @@ def examine(
     far as the budget allows. The leak test is made of designs that nothing else speaks against; one
     that requires it where there is none is refused before it is evaluated.
 
-    Arguments and errors are those of ``run``.
+    Args:
+        design: What is to be printed and pressurised.
+        progress: Listens to stages and load.
+        budget: Memory (GiB) and seconds that a mesh may take.
+        store: Where evaluations are looked for and kept; None for none.
+        leak_tester: The leak test, or why there is none; None for that of this machine.
+
+    Returns:
+        Printability, evaluation and verdict, without a folder.
+
+    Raises:
+        BellowsError: No solid, no watertight mesh, a first mesh beyond the budget, or an unknown
+            printer.
+        PrintersError: The leak test is required, and the slicer here cannot be used.
+        MeshingError: No usable mesh, or none in time.
     """
     from bellows_design.approval import decide, refused_for_want_of_a_slicer, with_leak_test
     from bellows_design.leak_test.record import LeakTest, Unavailable
@@ -232,6 +247,13 @@ def build_part(design: Design) -> Part:
         GeometryError: The CAD kernel cannot build the solid.
         TessellationError: The solid's triangles do not close.
         PrintersError: The design's printer is unknown.
+
+    Examples:
+        >>> from bellows_design import build_part, load_design
+        >>> part = build_part(load_design("prototype_1"))
+        >>> low, high = part.mesh.vertices.min(axis=0), part.mesh.vertices.max(axis=0)
+        >>> print((high - low).round(1), "mm")
+        [58. 20. 20.] mm
     """
     from bellows_design.geometry.actuator import printed_part
     from bellows_design.geometry.tessellation import tessellate
@@ -244,12 +266,14 @@ def build_part(design: Design) -> Part:
     return Part(design.name, design.description, design.digest, solid, mesh, profile)
 
 
-def check(design: Design, part: Part, printer: str | None = None) -> PrintabilityReport:
-    """Printability of ``part``.
+def check(
+    design: Design, part: Part | None = None, printer: str | None = None
+) -> PrintabilityReport:
+    """Printability of ``design``'s part.
 
     Args:
         design: Declares walls, gaps, the port's opening and the limits of the cross-section, mm.
-        part: What ``build_part`` made of it.
+        part: What ``build_part`` made of it; None where it is not at hand, and is built.
         printer: Name of a printer profile, or path of a TOML file, instead of the design's.
 
     Returns:
@@ -257,12 +281,20 @@ def check(design: Design, part: Part, printer: str | None = None) -> Printabilit
 
     Raises:
         PrintersError: No such profile, or one that is none.
+        BellowsError: As ``build_part``, where the part is built here.
+
+    Examples:
+        >>> from bellows_design import check, load_design
+        >>> report = check(load_design("finger"))
+        >>> print(report.printer, report.verdict, [rule.rule for rule in report.failures])
+        prusa_i3 pass []
     """
     from bellows_design.printability import printed_model
     from printers import check_printability, load_profile
 
     profile = design.profile() if printer is None else load_profile(printer)
-    return check_printability(printed_model(design, part.mesh), profile)
+    mesh = (part or build_part(design)).mesh
+    return check_printability(printed_model(design, mesh), profile)
 
 
 def _settled(

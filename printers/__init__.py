@@ -69,6 +69,15 @@ def check_printability(model: PrintedModel, profile: PrinterProfile) -> Printabi
 
     Raises:
         PrintersError: No triangle of the mesh has an area.
+
+    Examples:
+        >>> import trimesh
+        >>> from printers import PrintedModel, check_printability, load_profile
+        >>> sheet = trimesh.creation.box((20, 20, 0.2))  # a single layer seals nothing
+        >>> model = PrintedModel(sheet.vertices, sheet.faces)
+        >>> report = check_printability(model, load_profile("prusa_i3"))
+        >>> print(report.verdict, sorted({failure.rule for failure in report.failures}))
+        fail ['airtightness', 'minimum_layers']
     """
     from printers.check import check_printability as check  # compiled code: only when needed
 

@@ -9,7 +9,16 @@ LONGEST_QUOTE = 200
 
 
 class PrintersError(ValueError):
-    """A profile or a part that cannot be checked: one sentence on what is wrong with it."""
+    """A profile or a part that cannot be checked: one sentence on what is wrong with it.
+
+    Examples:
+        >>> from printers import PrintersError, load_profile
+        >>> try:
+        ...     load_profile("prusa_i4")
+        ... except PrintersError as error:
+        ...     print(str(error).split(";")[0])
+        there is no printer profile 'prusa_i4'
+    """
 
 
 def quoted(value: object) -> str:

@@ -37,6 +37,11 @@ class DeclaredWall:
 
     Raises:
         PrintersError: The thickness is not within (0, 100] mm or the kind is unknown.
+
+    Examples:
+        >>> from printers import DeclaredWall
+        >>> print(DeclaredWall("floor", 1.2, kind="layers"))  # mm
+        DeclaredWall(name='floor', thickness=1.2, kind='layers', around=None)
     """
 
     name: str
@@ -60,6 +65,11 @@ class DeclaredGap:
 
     Raises:
         PrintersError: The width is not within (0, 100] mm.
+
+    Examples:
+        >>> from printers import DeclaredGap
+        >>> print(DeclaredGap("between bubbles", 1.2))  # mm
+        DeclaredGap(name='between bubbles', width=1.2)
     """
 
     name: str
@@ -85,6 +95,15 @@ class Opening:
     Raises:
         PrintersError: A number is not finite, the radius or the reach not within (0, 100] mm or
             the direction no unit vector.
+
+    Examples:
+        >>> from printers import Opening
+        >>> port = Opening("port", centre=(0, 0, 5), direction=(-1, 0, 0), radius=2.0)  # mm
+        >>> try:
+        ...     Opening("port", (0, 0, 5), (-1, 1, 0), 2.0)
+        ... except ValueError as error:
+        ...     print(error)
+        direction of opening port has length 1.41421, not 1
     """
 
     name: str
@@ -130,6 +149,15 @@ class PrintedModel:
     Raises:
         PrintersError: The arrays are malformed, or the part is smaller than 1 mm or larger than
             2 m, as happens with wrong units.
+
+    Examples:
+        >>> import trimesh
+        >>> from printers import DeclaredWall, PrintedModel
+        >>> plate = trimesh.creation.box((20, 20, 1.2))
+        >>> wall = DeclaredWall("plate", 1.2, "layers")  # mm
+        >>> model = PrintedModel(plate.vertices, plate.faces, walls=(wall,))
+        >>> print(model.vertices.shape, model.triangles.shape)
+        (8, 3) (12, 3)
     """
 
     vertices: Floats

@@ -28,6 +28,11 @@ def available_profiles() -> tuple[str, ...]:
 
     Raises:
         PrintersError: An installed package announces profiles but cannot be imported.
+
+    Examples:
+        >>> from printers import available_profiles
+        >>> print("prusa_i3" in available_profiles())
+        True
     """
     return PROFILES.names()
 
@@ -40,6 +45,11 @@ def available_filaments() -> tuple[str, ...]:
 
     Raises:
         PrintersError: An installed package announces filaments but cannot be imported.
+
+    Examples:
+        >>> from printers import available_filaments
+        >>> print("ninjaflex_85a" in available_filaments())
+        True
     """
     return FILAMENTS.names()
 
@@ -60,6 +70,11 @@ def load_profile(name_or_path: str | Path) -> PrinterProfile:
     Raises:
         PrintersError: One sentence on an unknown name, a missing or unreadable file, an unknown
             key, NaN or a value out of bounds.
+
+    Examples:
+        >>> from printers import load_profile
+        >>> print(load_profile("prusa_i3").nozzle_diameter, "mm")
+        0.4 mm
     """
     table, origin = own_table(PROFILES, name_or_path)
     try:
@@ -79,6 +94,11 @@ def load_filament(name_or_path: str | Path) -> Filament:
 
     Raises:
         PrintersError: As `load_profile`.
+
+    Examples:
+        >>> from printers import load_filament
+        >>> print(load_filament("cheetah_95a").nozzle_temperature, "°C")
+        240.0 °C
     """
     table, origin = own_table(FILAMENTS, name_or_path)
     try:
@@ -124,6 +144,12 @@ def profile_from_table(table: Mapping[str, Any], origin: Origin = NOWHERE) -> Pr
 
     Raises:
         PrintersError: As `load_profile`.
+
+    Examples:
+        >>> from printers import profile_from_table
+        >>> lab = profile_from_table({"extends": "prusa_i3", "name": "lab", "minimum_gap": 0.6})
+        >>> print(lab.minimum_gap, lab.nozzle_diameter)  # mm
+        0.6 0.4
     """
     whole = with_parents(PROFILES, table, origin)
     filament = _filament(whole.get("filament"), origin)

@@ -44,6 +44,12 @@ class RuleResult:
         source: Where the rule and its limit come from.
         points: The places that `where` and `message` name as `place` writes them, mm, in the order
             in which they do; see `at`.
+
+    Examples:
+        >>> from printers import RuleResult
+        >>> found = RuleResult("gap", "pass", 1.2, 0.4, "mm", "outside", "The gap stays open.")
+        >>> print(found.measured, found.unit)
+        1.2 mm
     """
 
     rule: str
@@ -95,6 +101,13 @@ class PrintabilityReport:
     Attributes:
         printer: Name of the printer's profile.
         rules: One result for every rule and thing it was applied to, always in the same order.
+
+    Examples:
+        >>> from printers import PrintabilityReport, RuleResult
+        >>> found = RuleResult("wall", "fail", 0.4, 0.8, "mm", "side", "The wall is too thin.")
+        >>> report = PrintabilityReport("prusa_i3", (found,))
+        >>> print(report.verdict, [failure.where for failure in report.failures])
+        fail ['side']
     """
 
     printer: str

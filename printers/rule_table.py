@@ -32,6 +32,12 @@ class Rule:
         seals: Whether the part's tightness rests on it. Such a rule keeps its severity: an approval
             says that the part is closed, on every printer, and a profile that only warned of an
             open wall would let a leak be exported as approved.
+
+    Examples:
+        >>> from printers import RULES
+        >>> rule = RULES["gap"]
+        >>> print(rule.severity, rule.limit, rule.unit)
+        fail minimum_gap mm
     """
 
     name: str

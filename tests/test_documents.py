@@ -28,6 +28,8 @@ ROOT = Path(__file__).parents[1]
 DOCS = sorted((ROOT / "docs").glob("*.md"))
 OPTIONAL = [path for path in [ROOT / "CONTRIBUTING.md"] if path.exists()]
 DOCUMENTS = [ROOT / "README.md", ROOT / "CHANGELOG.md", *OPTIONAL, *DOCS]
+GENERATED = ROOT / "docs/generated"
+"""Pages that are written when the site is built."""
 BLOCK = re.compile(r"^```.*?^```", re.MULTILINE | re.DOTALL)
 LINK = re.compile(r"\]\(([^()\s]+)\)")
 CODE = re.compile(r"`([^`\n]+)`")
@@ -67,13 +69,24 @@ def local_links(document: Path) -> list[str]:
     return [link for link in LINK.findall(text_of(document)) if "://" not in link]
 
 
+@cache
+def generated_pages() -> frozenset[str]:
+    """File names of the pages that are written when the site is built."""
+    from generators.pages import generated
+
+    return frozenset(generated(GENERATED))
+
+
 @each_document
 def test_every_link_leads_to_a_file_and_a_heading(document: Path) -> None:
     broken = []
     for link in local_links(document):
         path, _, anchor = link.partition("#")
         target = (document.parent / path).resolve() if path else document
-        if not target.exists() or (anchor and anchor not in anchors(target)):
+        if target.parent == GENERATED:
+            if target.name not in generated_pages():
+                broken.append(link)
+        elif not target.exists() or (anchor and anchor not in anchors(target)):
             broken.append(link)
     assert not broken
 
@@ -97,9 +110,18 @@ def exists(folder: Path, path: str) -> bool:
     return any(folder.glob(path.replace(PLACEHOLDER, "*")))
 
 
-def test_every_page_is_linked_from_the_readme() -> None:
+def test_every_page_is_in_the_tree_of_the_site() -> None:
+    index = (ROOT / "docs/index.md").read_text("utf-8")
+    trees = re.findall(r"^```{toctree}\n(.*?)^```", index, re.MULTILINE | re.DOTALL)
+    entries = [line for tree in trees for line in tree.split("\n\n", 1)[1].split()]
+    assert sorted(entries) == sorted(set(entries))
+    assert {path.stem for path in DOCS} - {"index"} <= set(entries)
+
+
+def test_the_readme_leads_to_the_site_and_its_main_pages() -> None:
     linked = {(ROOT / link.partition("#")[0]).resolve() for link in local_links(ROOT / "README.md")}
-    assert set(DOCS) <= linked
+    main = ("index", "tutorial", "python", "commands", "design-file", "accuracy", "printability")
+    assert {ROOT / f"docs/{name}.md" for name in main} <= linked
 
 
 def undocumented(names: set[str], page: str) -> set[str]:

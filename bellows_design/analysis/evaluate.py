@@ -199,7 +199,18 @@ class Computed(Protocol):
 
 
 def write_vtu(evaluation: Computed, path: Path | str) -> None:
-    """Write the finest solution for ParaView, completely or not at all."""
+    """Write the finest solution for ParaView, completely or not at all.
+
+    Displacement is in mm, von Mises stress and hydrostatic pressure in MPa.
+
+    Args:
+        evaluation: What ``evaluate`` found, of a design or a body of one's own.
+        path: Of the file, ending in ``.vtu``; one that is there is replaced.
+
+    Raises:
+        SolverError: A path with another ending.
+        OSError: The file cannot be written.
+    """
     from bellows_design.files.atomic import replacing
     from solver import write_vtu as write
 

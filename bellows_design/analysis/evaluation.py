@@ -70,6 +70,14 @@ class LoadedState:
         strain: How far the material is strained, and whether it is known there.
         contact: Which walls touch, and how near the others come.
         folded: Elements that the deformation folds.
+
+    Examples:
+        >>> from bellows_design import Evaluation
+        >>> from bellows_design.evaluation import LoadedState, NeighbourEvaluation
+        >>> print(issubclass(Evaluation, LoadedState), issubclass(NeighbourEvaluation, LoadedState))
+        True True
+        >>> print(Evaluation.ordinary, NeighbourEvaluation.ordinary)  # a verdict needs the first
+        True False
     """
 
     ordinary: ClassVar[bool] = True
@@ -118,6 +126,9 @@ class LoadedState:
 @dataclass(frozen=True, kw_only=True)
 class Evaluation(LoadedState):
     """What the solver found for a design at the pressure it reached.
+
+    Angle, stress, volume, estimated errors and all else that a verdict is decided by are attributes
+    of its base, ``LoadedState``.
 
     Attributes:
         design: The design evaluated.

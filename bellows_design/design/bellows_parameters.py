@@ -30,6 +30,16 @@ class BellowsParameters(Parameters):
         pydantic.ValidationError: A number leaves its bounds, or the numbers together describe no
             solid; each message names parameter, value and bound. A ``Design`` makes sentences
             of it.
+
+    Examples:
+        >>> from bellows_design import BellowsParameters
+        >>> bellows = BellowsParameters(
+        ...     bubble_width=20, bubble_height=20, bubble_thickness=1.2, tendon_width=6,
+        ...     tendon_height=6, tendon_thickness=1.6, chamber_length=2, bubble_distance=1.2,
+        ...     inner_fillet=1, outer_fillet=2.2, length=50, offset=5,
+        ... )
+        >>> print(bellows.bubble_count, f"bubbles, one every {bellows.pitch:.1f} mm")
+        8 bubbles, one every 5.6 mm
     """
 
     bubble_width: Millimetres = length_field(4, 200, "outer width of a bubble, along y")

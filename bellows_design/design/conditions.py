@@ -26,6 +26,14 @@ class Load(Parameters):
 
     The bounds are the full vacuum and the 6 bar of workshop air, and 10 mbar of either: wide for a
     soft actuator, yet narrow enough that 0.1 MPa given in bar, kPa or Pa falls outside.
+
+    Examples:
+        >>> from bellows_design import Load
+        >>> try:
+        ...     Load(pressure=100)  # kPa by mistake
+        ... except ValueError as error:
+        ...     print("less than or equal to 0.6" in str(error))
+        True
     """
 
     pressure: float = Field(
@@ -51,6 +59,11 @@ class Limits(Parameters):
 
     ``leak_test`` says whether the part must pass the leak test on a slicer's G-code as well,
     ``scenes`` names those under whose loads the actuator must hold, too.
+
+    Examples:
+        >>> from bellows_design import Limits
+        >>> print(Limits(max_von_mises=3.5, cross_section_width=24).cross_section_height, "mm")
+        20.0 mm
     """
 
     max_von_mises: float | None = Field(

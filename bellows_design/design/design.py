@@ -72,6 +72,19 @@ class Design(Labelled):
     Raises:
         DesignError: A value leaves its bounds, or the parts do not fit together; one sentence for
             each problem.
+
+    Examples:
+        >>> from bellows_design import Design
+        >>> numbers = dict(
+        ...     bubble_width=20, bubble_height=20, bubble_thickness=1.2, tendon_width=6,
+        ...     tendon_height=6, tendon_thickness=1.6, chamber_length=2, bubble_distance=1.2,
+        ...     inner_fillet=1, outer_fillet=2.2, length=50, offset=5,
+        ... )  # mm
+        >>> design = Design(name="mine", bellows=numbers, load={"pressure": 0.08})
+        >>> print(design.max_von_mises, "MPa allowed;", design.digest[:8])
+        4.0 MPa allowed; fb49b143
+        >>> print(Design.from_toml(design.to_toml()) == design)
+        True
     """
 
     bellows: BellowsParameters

@@ -17,7 +17,16 @@ from bellows_design.validation.parameters import Parameters, require
 
 
 class Indent(Parameters):
-    """Material taken from the bottom wall under every chamber, right across the bubble."""
+    """Material taken from the bottom wall under every chamber, right across the bubble.
+
+    Examples:
+        >>> from bellows_design import Indent, load_design, with_overrides
+        >>> design = load_design("prototype_2")
+        >>> groove = Indent(depth=0.4, width=2.4)  # mm
+        >>> print(f"{groove.remaining_wall(design.bellows):.2f} mm of wall remain")
+        0.80 mm of wall remain
+        >>> changed = with_overrides(design, ["indent={depth=0.4, width=2.4}"])
+    """
 
     side: Literal["outside", "inside"] = Field(
         default="outside", description="which face of the bottom wall"

@@ -35,6 +35,13 @@ def with_overrides(design: Design, assignments: Iterable[str]) -> Design:
 
     Raises:
         DesignError: An unknown key, an unreadable value, or a result that is no design.
+
+    Examples:
+        >>> from bellows_design import load_design, with_overrides
+        >>> changes = ["bubble_thickness=1.6", "material=chinchilla"]  # mm
+        >>> design = with_overrides(load_design("finger"), changes)
+        >>> print(design.bellows.bubble_thickness, design.material.name)
+        1.6 chinchilla
     """
     table = design.model_dump()
     for assignment in assignments:

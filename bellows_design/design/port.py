@@ -13,6 +13,12 @@ class Port(Parameters):
     """Socket for a pneumatic tube at the root: a boss that stands on the print bed.
 
     The tube is pushed in up to the root's face; a smaller hole leads on into the air channel.
+
+    Examples:
+        >>> from bellows_design.design import Port
+        >>> port = Port(tube_diameter=6.0)  # mm
+        >>> print(f"{port.axis_height:.1f} mm above the bed")
+        4.6 mm above the bed
     """
 
     tube_diameter: Millimetres = length_field(

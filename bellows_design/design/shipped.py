@@ -15,7 +15,13 @@ LIBRARY = TomlLibrary("design", "bellows_design.design", folder="designs")
 
 
 def shipped_designs() -> tuple[str, ...]:
-    """Names of the designs that come with the package, sorted."""
+    """Names of the designs that come with the package, sorted.
+
+    Examples:
+        >>> from bellows_design import shipped_designs
+        >>> print("finger" in shipped_designs())
+        True
+    """
     return LIBRARY.names()
 
 
@@ -35,6 +41,11 @@ def load_design(name_or_path: str | Path) -> Design:
     Raises:
         DesignError: There is neither, or the file describes no design; one sentence for each
             problem.
+
+    Examples:
+        >>> from bellows_design import load_design
+        >>> print(load_design("prototype_1").bellows.bubble_width, "mm")
+        20.0 mm
     """
     table, path = LIBRARY.named_or_at(name_or_path), LIBRARY.path_of(name_or_path)
     if is_own_body(table):

@@ -80,6 +80,12 @@ def varied(design: Design, changes: Mapping[str, float]) -> Design:
 
     Raises:
         DesignError: An unknown name, or values that describe no design.
+
+    Examples:
+        >>> from bellows_design import load_design, varied
+        >>> wider = varied(load_design("finger"), {"bubble_width": 20.5, "load.pressure": 0.08})
+        >>> print(wider.bellows.bubble_width, "mm,", wider.load.pressure, "MPa")
+        20.5 mm, 0.08 MPa
     """
     known = settable(design)
     for name in changes:

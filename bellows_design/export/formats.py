@@ -27,10 +27,22 @@ Writer = Callable[[Part], bytes]
 def write_part(part: Part, path: Path | str, writer: Writer | None = None) -> None:
     """Write ``part`` in the format of ``path``'s suffix, completely or not at all.
 
-    ``writer`` makes the content instead of the format's usual one.
+    What was written is read back and compared.
 
-    What was written is read back and compared. Raises ``DesignError`` for an unknown suffix and
-    ``CannotWrite``, an ``OSError``, if the file cannot be written or does not hold the part.
+    Args:
+        part: What ``build_part`` made, mm.
+        path: Of the file; ``.stl`` and ``.3mf`` hold the mesh, ``.step`` the exact solid.
+        writer: Makes the content instead of the format's usual one.
+
+    Raises:
+        DesignError: An unknown suffix.
+        CannotWrite: An ``OSError``: the file cannot be written, or does not hold the part.
+
+    Examples:
+        >>> from bellows_design import build_part, load_design, write_part
+        >>> part = build_part(load_design("prototype_1"))
+        >>> for name in ("part.stl", "part.3mf"):
+        ...     write_part(part, name)
     """
     path = Path(path)
     content = (writer or writer_for(path))(part)

@@ -57,12 +57,28 @@ def printed_part(
 ) -> NamedSolid:
     """Solid as printed: closed tip, socket for the tube at the root.
 
-    Faces: ``cavity``, ``outside``, ``root``, ``tip``, ``port`` (the socket and its mouth) and
-    ``mount`` (its plate, where that is no part of another face).
+    Args:
+        bellows: The twelve numbers, mm.
+        indent: Groove under every chamber, mm; None without one.
+        port: Socket for the tube, mm.
+        mount: Plate with screw holes at the root, mm; None without one.
+        fingertip: Pad beyond the tip, mm; None without one.
+
+    Returns:
+        The solid, mm, with the faces ``cavity``, ``outside``, ``root``, ``tip``, ``port`` (the
+        socket and its mouth) and ``mount`` (its plate, where that is no part of another face).
 
     Raises:
         DesignError: indent, port, mount or fingertip do not fit the bellows.
         GeometryError: the CAD kernel failed.
+
+    Examples:
+        >>> from bellows_design.design import load_design
+        >>> from bellows_design.geometry import printed_part
+        >>> design = load_design("prototype_1")
+        >>> part = printed_part(design.bellows, design.indent, design.port)
+        >>> print(sorted(set(part.face_names)), part.solid.isValid())
+        ['cavity', 'outside', 'port', 'root', 'tip'] True
     """
     port.check_fits(bellows)
     body = fused(_outer(bellows, indent, fingertip), _port_boss(bellows, port))
@@ -77,8 +93,26 @@ def half_body(
 ) -> NamedSolid:
     """Half y >= 0 of the actuator with its cavity closed (no port), for analysis.
 
-    Faces: ``cavity``, ``outside``, ``root`` (x = 0), ``tip`` (the end of the tendon, or of the
-    fingertip), ``symmetry`` (y = 0). Raises like :func:`printed_part`.
+    Args:
+        bellows: The twelve numbers, mm.
+        indent: Groove under every chamber, mm; None without one.
+        fingertip: Pad beyond the tip, mm; None without one.
+
+    Returns:
+        The solid, mm, with the faces ``cavity``, ``outside``, ``root`` (x = 0), ``tip`` (the end of
+        the tendon, or of the fingertip) and ``symmetry`` (y = 0).
+
+    Raises:
+        DesignError: Indent or fingertip do not fit the bellows.
+        GeometryError: The CAD kernel failed.
+
+    Examples:
+        >>> from bellows_design.design import load_design
+        >>> from bellows_design.geometry import full_body, half_body
+        >>> design = load_design("prototype_1")
+        >>> half, full = (of(design.bellows, design.indent).solid for of in (half_body, full_body))
+        >>> print(f"{half.Volume() / full.Volume():.3f}")
+        0.500
     """
     end = bellows.length + (0.0 if fingertip is None else fingertip.length)
     other_half = box(
@@ -91,9 +125,27 @@ def half_body(
 def unit_cell(bellows: BellowsParameters, indent: Indent | None) -> NamedSolid:
     """Half of a bubble, half of its width: what repeats in the middle of the actuator.
 
-    From the middle of a bubble at x = 0 to the middle of the gap at x = pitch / 2, y >= 0. Faces:
-    ``cavity``, ``outside``, ``bubble_middle``, ``gap_middle``, ``symmetry``.
-    Raises like :func:`printed_part`.
+    From the middle of a bubble at x = 0 to the middle of the gap at x = pitch / 2, y >= 0.
+
+    Args:
+        bellows: The twelve numbers, mm.
+        indent: Groove under every chamber, mm; None without one.
+
+    Returns:
+        The solid, mm, with the faces ``cavity``, ``outside``, ``bubble_middle``, ``gap_middle`` and
+        ``symmetry``.
+
+    Raises:
+        DesignError: Indent does not fit the bellows.
+        GeometryError: The CAD kernel failed.
+
+    Examples:
+        >>> from bellows_design.design import load_design
+        >>> from bellows_design.geometry import unit_cell
+        >>> bellows = load_design("prototype_1").bellows
+        >>> cell = unit_cell(bellows, None)
+        >>> print(f"{cell.solid.BoundingBox().xlen - bellows.pitch / 2:.6f} mm from half a pitch")
+        0.000000 mm from half a pitch
     """
     width, height, end = bellows.bubble_width, bellows.bubble_height, bellows.pitch / 2
     body = cut(_cell_outside(bellows, indent), _cell_cavity(bellows, indent))
@@ -133,7 +185,29 @@ def _section_name(face: cq.Face, own: str) -> str:
 def full_body(
     bellows: BellowsParameters, indent: Indent | None, fingertip: Fingertip | None = None
 ) -> NamedSolid:
-    """The whole actuator with its cavity closed (no port); faces as in :func:`half_body`."""
+    """The whole actuator with its cavity closed (no port), for analysis.
+
+    Args:
+        bellows: The twelve numbers, mm.
+        indent: Groove under every chamber, mm; None without one.
+        fingertip: Pad beyond the tip, mm; None without one.
+
+    Returns:
+        The solid, mm, with the faces ``cavity``, ``outside``, ``root`` (x = 0) and ``tip`` (the end
+        of the tendon, or of the fingertip).
+
+    Raises:
+        DesignError: Indent or fingertip do not fit the bellows.
+        GeometryError: The CAD kernel failed.
+
+    Examples:
+        >>> from bellows_design.design import load_design
+        >>> from bellows_design.geometry import full_body
+        >>> design = load_design("prototype_1")
+        >>> body = full_body(design.bellows, design.indent)
+        >>> print(sorted(set(body.face_names)), f"{body.solid.Volume() / 1000:.1f} cm³")
+        ['cavity', 'outside', 'root', 'tip'] 9.9 cm³
+    """
     return cut(_outer(bellows, indent, fingertip), _cavity(bellows, indent))
 
 

@@ -32,6 +32,12 @@ def load_material(name: str) -> Material:
     Raises:
         DesignError: The library has none of that name (the sentence names those that look alike),
             or its file cannot be read or describes no material.
+
+    Examples:
+        >>> from bellows_design import load_material
+        >>> rubber = load_material("dragon_skin_30")
+        >>> print(f"{rubber.initial_shear_modulus:.3f} MPa, tested to {rubber.valid_strain[1]:.0%}")
+        0.178 MPa, tested to 300%
     """
     return checked_material(LIBRARY.named(name))
 
@@ -46,7 +52,13 @@ def material_at(path: Path) -> Material:
 
 
 def material_names() -> tuple[str, ...]:
-    """Names of all materials of the library, the shipped ones and those of other packages."""
+    """Names of all materials of the library, the shipped ones and those of other packages.
+
+    Examples:
+        >>> from bellows_design.materials import material_names
+        >>> print([name for name in material_names() if name.startswith("ecoflex")])
+        ['ecoflex_00_30', 'ecoflex_00_50']
+    """
     return LIBRARY.names()
 
 
@@ -69,8 +81,22 @@ def written(material: Material) -> dict[str, Any]:
 def write_material(material: Material, path: Path) -> None:
     """Write ``material`` as TOML, in the form of the library's; completely or not at all.
 
+    Args:
+        material: Its moduli and strengths are in MPa.
+        path: Of the file, whose folder is there; a file of that name is replaced.
+
     Raises:
         OSError: The file cannot be written.
+
+    Examples:
+        >>> from pathlib import Path
+        >>> from bellows_design.design import load_design, with_overrides
+        >>> from bellows_design.materials import Material, write_material
+        >>> mine = Material(name="mine", model="neo-hooke", c10=0.2, yield_strength=3.0)  # MPa
+        >>> write_material(mine, Path("mine.toml"))
+        >>> design = with_overrides(load_design("finger"), ["material=mine.toml"])
+        >>> print(design.material == mine)
+        True
     """
     import tomli_w
 

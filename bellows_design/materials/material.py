@@ -79,6 +79,12 @@ class Material(Parameters):
     Raises:
         pydantic.ValidationError: A number leaves its bounds, or the material is unstable. A
             ``Design`` and ``load_material`` make sentences of it.
+
+    Examples:
+        >>> from bellows_design import Material
+        >>> rubber = Material(model="yeoh", c10=0.2, c20=0.01, yield_strength=3.0)  # MPa
+        >>> print(rubber.mu, rubber.alpha, rubber.higher)
+        (0.4,) (2.0,) (0.01,)
     """
 
     name: str = Field(

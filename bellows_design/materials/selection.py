@@ -54,6 +54,17 @@ def fit(data: Measurements, model: str = BEST) -> Choice:
 
     Raises:
         DesignError: Unknown model, or too few points for it.
+
+    Examples:
+        >>> import numpy as np
+        >>> from pathlib import Path
+        >>> from bellows_design.materials import fit, load_measurements
+        >>> stretches = np.linspace(1.05, 2, 20)
+        >>> rows = [f"uniaxial,{s:.4f},{0.4 * (s - s**-2):.6f}" for s in stretches]  # mu = 0.4 MPa
+        >>> _ = Path("test.csv").write_text("\\n".join(["mode,stretch,stress_mpa", *rows]))
+        >>> best = fit(load_measurements("test.csv"))
+        >>> print(best.fit.model, f"mu = {best.fit.mu[0]:.3f} MPa")
+        neo-hooke mu = 0.400 MPa
     """
     if model != BEST:
         only = fit_model(data, model)

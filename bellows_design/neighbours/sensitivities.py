@@ -122,6 +122,16 @@ class Sensitivities:
 def sensitivities(found: Evaluation | NeighbourEvaluation) -> Sensitivities:
     """Derivatives at the state of an evaluation, on its finest mesh.
 
+    By the adjoint method: one back-substitution for each response, with the factorization at hand
+    where ``evaluate(design, keep=True)`` has left it, however many parameters there are.
+
+    Args:
+        found: What ``evaluate`` found for a design; it has reached its pressure.
+
+    Returns:
+        Of angle (degrees), volume (mm³) and highest stress (MPa) by every length (mm), constant of
+        the material and the pressure (MPa): per unit, and in percent per percent.
+
     Raises:
         DesignError: The evaluation did not reach its pressure, or its walls run through each other.
         SolverError: The state is at a limit point.

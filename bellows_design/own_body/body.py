@@ -62,6 +62,20 @@ class OwnBody(BodyRecord, Labelled):
     Raises:
         DesignError: A value leaves its bounds, or a surface is unknown or has no face; one sentence
             for each problem.
+
+    Examples:
+        >>> import cadquery as cq
+        >>> from bellows_design import OwnBody
+        >>> hollow = cq.Solid.makeBox(30, 3, 4, cq.Vector(5, 1, 4))
+        >>> bar = cq.Solid.makeBox(40, 5, 10).cut(hollow)
+        >>> body = OwnBody(
+        ...     name="bar",
+        ...     parts=[{"name": "bar", "solid": bar, "material": "ecoflex_00_30"}],
+        ...     surfaces={"root": "<X", "tip": ">X", "cavity": {"inner": True}},
+        ...     load={"pressure": 0.002},  # MPa
+        ... )
+        >>> print(body.under_pressure, len(body.face_names[0]), "faces")
+        ('cavity',) 12 faces
     """
 
     parts: tuple[BodyPart, ...]

@@ -27,6 +27,13 @@ class BodyPart(BodyRecord):
         material: The material, or the name of one of the library, or a TOML file.
         density_kg_m3: Needed where gravity acts, kg/m³.
         size: Longest edge of the mesh in this part, mm, if less than elsewhere.
+
+    Examples:
+        >>> import cadquery as cq
+        >>> from bellows_design import BodyPart
+        >>> bar = BodyPart(name="bar", solid=cq.Solid.makeBox(40, 10, 10), material="ecoflex_00_30")
+        >>> print(bar.material.initial_shear_modulus, "MPa")
+        0.01435 MPa
     """
 
     model_config = ConfigDict(arbitrary_types_allowed=True)

@@ -35,6 +35,14 @@ def bellows(design: Subject = "prototype_1", **parameters: Any) -> Callable[...,
     Raises:
         DesignError: There is no such design, or the values make none.
         GeometryError: The CAD kernel cannot build the part.
+
+    Examples:
+        >>> import cadquery as cq
+        >>> from bellows_design.plugin import bellows
+        >>> places = cq.Workplane("YZ").pushPoints([(0, 0), (25, 0)])  # mm
+        >>> hand = places.invoke(bellows("prototype_1"))
+        >>> print(hand.solids().size(), "fingers")
+        2 fingers
     """
     solid = part_of(design_of(design, parameters))
 
@@ -55,6 +63,14 @@ def register() -> None:
     """Add the method ``Workplane.bellows(design, ...)`` to CadQuery for this process.
 
     Raises ``BellowsError``, and changes nothing, if the name is already taken by another.
+
+    Examples:
+        >>> import cadquery as cq
+        >>> from bellows_design.plugin import register
+        >>> register()
+        >>> part = cq.Workplane().bellows("prototype_1")
+        >>> print(part.solids().size())
+        1
     """
     if getattr(cq.Workplane, METHOD, _method) is not _method:
         raise BellowsError(f"cadquery.Workplane.{METHOD} is there already and stays as it is")

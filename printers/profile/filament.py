@@ -35,6 +35,12 @@ class Filament(Record):
 
     Raises:
         PrintersError: One sentence on an unknown key, NaN or a value out of bounds.
+
+    Examples:
+        >>> from printers import load_filament
+        >>> filament = load_filament("ninjaflex_85a")
+        >>> print(filament.shore, f"{filament.density} g/cm³")
+        85A 1.19 g/cm³
     """
 
     name: Text = Field(min_length=1, description="as it is loaded by")

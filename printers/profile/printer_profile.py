@@ -39,6 +39,13 @@ class PrinterProfile(Record):
 
     Raises:
         PrintersError: One sentence on an unknown key, NaN or a value out of bounds.
+
+    Examples:
+        >>> from printers import load_profile
+        >>> printer = load_profile("prusa_i3")
+        >>> print(f"{printer.minimum_wall:.1f} mm, {printer.minimum_floor:.1f} mm")  # wall, floor
+        walls from 1.2 mm, floors from 0.8 mm
+        >>> changed = printer.model_copy(update={"build_volume": (120.0, 120.0, 120.0)})
     """
 
     name: Text = Field(min_length=1, description="as it is loaded by")

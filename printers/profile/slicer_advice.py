@@ -47,6 +47,12 @@ class SlicerAdvice(Record):
 
     Raises:
         PrintersError: One sentence on an unknown key, NaN or a value out of bounds.
+
+    Examples:
+        >>> from printers import load_profile
+        >>> advice = load_profile("prusa_i3").slicer
+        >>> print(f"{advice.nozzle_temperature:g} °C, {advice.print_speed:g} mm/s")
+        238 °C, 15 mm/s, flow 110 %
     """
 
     nozzle_temperature: Celsius = Field(description="of the nozzle")

@@ -42,6 +42,21 @@ def transfer(solution: Solution, finer_mesh: Mesh) -> tuple[Reals, Reals]:
     Raises:
         SolverError: no solution, no mesh, or meshes of different bodies: of which the extents
             differ by more than an edge, or the names of regions.
+
+    Examples:
+        >>> from solver import Ogden, Problem, Supports, Traction, solve, transfer
+        >>> from solver.mesh import block
+        >>> bend = Traction("x1", (0, 0, -0.001))
+        >>> coarse, fine = (block((30, 4, 4), cells) for cells in ((6, 1, 1), (12, 2, 2)))
+        >>> rubber = Ogden.neo_hooke(0.5)
+        >>> meshes = (coarse, fine)
+        >>> problems = [Problem(mesh, rubber, Supports(("x0",)), loads=(bend,)) for mesh in meshes]
+        >>> start = solve(problems[0])
+        >>> refined = solve(problems[1], initial=transfer(start, fine))
+        >>> print(refined.load_steps, "load step")
+        1 load step
+        >>> print([f"{found.displacement[:, 2].min():.2f} mm" for found in (start, refined)])
+        ['-4.16 mm', '-4.34 mm']
     """
     check_solution(solution)
     check_instance("transfer: finer_mesh", finer_mesh, Mesh)

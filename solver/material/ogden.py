@@ -54,6 +54,13 @@ class Ogden(Hyperelastic):
     Raises:
         SolverError: no mu or one that is not positive, a number that is not finite, other lengths
             of ``mu`` and ``alpha``, a bulk modulus that is not positive, an unknown volumetric law.
+
+    Examples:
+        >>> from solver import Ogden
+        >>> print(f"{Ogden((0.4, 0.02), (1.8, 6.0)).shear_modulus:.2f} MPa")
+        0.42 MPa
+        >>> print(Ogden.mooney_rivlin(c10=0.2, c01=0.05))
+        Ogden(mu=(0.4, 0.1), alpha=(2.0, -2.0), bulk_modulus=inf, higher=(), volumetric='quadratic')
     """
 
     law: ClassVar[str] = "ogden"

@@ -47,6 +47,18 @@ class Mesh:
     Raises:
         SolverError: a shape is wrong, a coordinate is not finite, a number of a node or element is
             out of range, or a region is empty, has no name or shares an element.
+
+    Examples:
+        >>> from solver import Mesh
+        >>> from solver.mesh import block
+        >>> bar = block((30, 4, 4), (6, 1, 1))
+        >>> print(bar.nodes.shape, bar.tets.shape, bar.surfaces["x1"].shape)
+        (117, 3) (36, 10) (2, 6)
+        >>> half = bar.nodes[bar.tets[:, :4]].mean(axis=1)[:, 2] > 2  # by the elements' centres
+        >>> layered = bar.with_regions({"upper": half.nonzero()[0]})
+        >>> larger = Mesh(2 * bar.nodes, bar.tets, bar.surfaces)
+        >>> print(layered.region_names, f"{larger.size:.1f} mm")
+        ('', 'upper') 61.1 mm
     """
 
     nodes: Reals

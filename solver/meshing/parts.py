@@ -48,6 +48,16 @@ class Part:
 
     Raises:
         SolverError: a name that is empty or has a "|", or a size that is not above 0 and finite.
+
+    Examples:
+        >>> from io import BytesIO
+        >>> import cadquery as cq
+        >>> from solver.meshing import Part
+        >>> content, plate = BytesIO(), cq.Solid.makeBox(20, 10, 1)
+        >>> plate.exportBrep(content)
+        True
+        >>> print(Part("plate", content.getvalue(), ["outside"] * 6, size=0.5).name)
+        plate
     """
 
     name: str
@@ -98,6 +108,19 @@ def mesh_solids(
         SolverError: names of parts that are not different, a number of names that is not that of
             the faces, a part's size below the smallest of the options, or ``seconds`` not above 0.
         OSError: a file cannot be read, or Gmsh cannot be loaded.
+
+    Examples:
+        >>> from io import BytesIO
+        >>> import cadquery as cq
+        >>> from solver.meshing import MeshOptions, Part, mesh_solids
+        >>> def box(name, height, z):
+        ...     content = BytesIO()
+        ...     cq.Solid.makeBox(20, 10, height, cq.Vector(0, 0, z)).exportBrep(content)
+        ...     return Part(name, content.getvalue(), ["outside"] * 6)
+        >>> parts = [box("rubber", 4, 0), box("plate", 1, 4)]
+        >>> mesh = mesh_solids(parts, MeshOptions(size=4.0))
+        >>> print(mesh.region_names, sorted(mesh.surfaces))
+        ('', 'rubber', 'plate') ['outside', 'rubber|plate']
     """
     given = _checked(parts)
     check_call(options, seconds)

@@ -34,6 +34,21 @@ class SizeField:
         sizes: wanted at its nodes.
 
             *Shape:* (n,) in mm.
+
+    Examples:
+        >>> import numpy as np
+        >>> from io import BytesIO
+        >>> import cadquery as cq
+        >>> from solver.meshing import MeshOptions, SizeField, mesh_solid
+        >>> content = BytesIO()
+        >>> cq.Solid.makeBox(20, 4, 4).exportBrep(content)
+        True
+        >>> coarse = mesh_solid(content.getvalue(), ["outside"] * 6, MeshOptions(size=4.0))
+        >>> sizes = np.where(coarse.nodes[:, 0] < 5, 0.8, 4.0)  # fine at one end
+        >>> options = MeshOptions(size=4.0, field=SizeField(coarse, sizes))
+        >>> fine = mesh_solid(content.getvalue(), ["outside"] * 6, options)
+        >>> print(len(fine.tets) > 3 * len(coarse.tets))
+        True
     """
 
     mesh: Mesh
@@ -53,6 +68,11 @@ class MeshOptions:
     Raises:
         SolverError: sizes that are not positive, finite and in order, or elements per circle
             outside of 0 to 100.
+
+    Examples:
+        >>> from solver.meshing import MeshOptions
+        >>> print(MeshOptions(size=1.5, elements_per_circle=8.0))
+        MeshOptions(size=1.5, elements_per_circle=8.0, smallest_size=0.1, field=None)
     """
 
     size: float = 2.0
@@ -109,6 +129,18 @@ def mesh_solid(
         MeshingError: no mesh, none within ``seconds``, or one with a folded or almost flat element.
         SolverError: the number of names is not the number of faces, or ``seconds`` is not above 0.
         OSError: ``brep`` cannot be read, or Gmsh cannot be loaded.
+
+    Examples:
+        >>> from io import BytesIO
+        >>> import cadquery as cq
+        >>> from solver.meshing import MeshOptions, mesh_solid
+        >>> content, solid = BytesIO(), cq.Solid.makeCylinder(5, 20)
+        >>> solid.exportBrep(content)
+        True
+        >>> names = ["bottom" if face.Center().z < 0.1 else "outside" for face in solid.Faces()]
+        >>> mesh = mesh_solid(content.getvalue(), names, MeshOptions(size=4.0))
+        >>> print(sorted(mesh.surfaces), mesh.tets.shape[1])
+        ['bottom', 'outside'] 10
     """
     check_solid("mesh: brep", brep)
     check_call(options, seconds)

@@ -47,6 +47,20 @@ class Checkpoint:
         direction: derivative of the equilibrium with respect to the load; zero at the whole load.
         points: the path so far.
         effort: counts so far, in the order of ``Effort``.
+
+    Examples:
+        >>> import numpy as np
+        >>> from solver import Ogden, Problem, Supports, Traction, solve
+        >>> from solver.mesh import block
+        >>> bend = Traction("x1", (0, 0, -0.002))
+        >>> rubber = Ogden.neo_hooke(0.5)  # MPa
+        >>> bar = Problem(block((30, 4, 4), (6, 1, 1)), rubber, Supports(("x0",)), loads=(bend,))
+        >>> kept = []
+        >>> whole = solve(bar, listener=lambda event: kept.append(event.checkpoint))
+        >>> first = next(checkpoint for checkpoint in kept if checkpoint is not None)
+        >>> again = solve(bar, resume=first)
+        >>> print(first.load, np.array_equal(again.displacement, whole.displacement))
+        0.1 True
     """
 
     reached: State

@@ -25,6 +25,17 @@ class Event:
         correction: its largest component at a node, mm.
         checkpoint: of an accepted step on a path from zero, to resume the solve from.
         spent: fraction of the solve's budget of steps and seconds that is spent, the larger one.
+
+    Examples:
+        >>> from solver import Ogden, Problem, Supports, Traction, solve
+        >>> from solver.mesh import block
+        >>> bend = Traction("x1", (0, 0, -0.002))
+        >>> rubber = Ogden.neo_hooke(0.5)  # MPa
+        >>> bar = Problem(block((30, 4, 4), (6, 1, 1)), rubber, Supports(("x0",)), loads=(bend,))
+        >>> events = []
+        >>> done = solve(bar, listener=events.append)
+        >>> print([event.load for event in events if event.kind == "step"][-1])
+        1.0
     """
 
     kind: Kind

@@ -129,6 +129,16 @@ def rotation(mesh: Mesh, displacement: Reals, surface: str = "tip") -> float:
 
     Raises:
         SolverError: displacements that are not of the mesh's nodes.
+
+    Examples:
+        >>> import numpy as np
+        >>> from solver import rotation
+        >>> from solver.mesh import block
+        >>> bar = block((30, 4, 4), (6, 1, 1))
+        >>> cos, sin = np.cos(np.radians(30)), np.sin(np.radians(30))
+        >>> turned = bar.nodes @ [[cos, 0, -sin], [0, 1, 0], [sin, 0, cos]]
+        >>> print(f"{rotation(bar, turned - bar.nodes, 'x1'):.1f} degrees")  # towards -z
+        30.0 degrees
     """
     check_instance("rotation: mesh", mesh, Mesh)
     check_instance("rotation: surface", surface, str)

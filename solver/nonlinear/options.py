@@ -38,6 +38,16 @@ class SolverOptions:
 
     Raises:
         SolverError: a number out of its bounds.
+
+    Examples:
+        >>> from solver import Ogden, Problem, SolverOptions, Supports, Traction, solve
+        >>> from solver.mesh import block
+        >>> bend = Traction("x1", (0, 0, -0.002))
+        >>> rubber = Ogden.neo_hooke(0.5)  # MPa
+        >>> bar = Problem(block((30, 4, 4), (6, 1, 1)), rubber, Supports(("x0",)), loads=(bend,))
+        >>> slow = solve(bar, options=SolverOptions(first_step=0.1, growth=1.5, tolerance=1e-9))
+        >>> print(slow.load_steps, slow.linear_solver != "")
+        5 True
     """
 
     first_step: float | None = None

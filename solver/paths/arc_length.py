@@ -45,6 +45,16 @@ class Trace:
         states: fields of each of the points.
         limits: the limit points and bifurcations found on it.
         message: why it ends.
+
+    Examples:
+        >>> from solver import Ogden, Problem, Supports, trace
+        >>> from solver.mesh import block
+        >>> shell = block((5, 5, 5), (3, 3, 3), hollow=((0, 0, 0), (2, 2, 2)))  # an eighth
+        >>> held = Supports(symmetry={"x0": 0, "y0": 1, "z0": 2})
+        >>> rubber = Ogden.neo_hooke(0.5)
+        >>> path = trace(Problem(shell, rubber, held, ("cavity",)), 1.0, steps=40, longest_step=0.1)
+        >>> print(path.points[1].stable, path.points[-1].stable)  # before and behind the limit
+        True False
     """
 
     points: tuple[PathPoint, ...]
@@ -85,6 +95,17 @@ def trace(
 
     Raises:
         SolverError: a pressure that is not finite, no steps, steps of no length, or no load.
+
+    Examples:
+        >>> from solver import Ogden, Problem, Supports, trace
+        >>> from solver.mesh import block
+        >>> shell = block((5, 5, 5), (3, 3, 3), hollow=((0, 0, 0), (2, 2, 2)))  # an eighth
+        >>> held = Supports(symmetry={"x0": 0, "y0": 1, "z0": 2})
+        >>> problem = Problem(shell, Ogden.neo_hooke(0.5), held, ("cavity",))
+        >>> path = trace(problem, 1.0, longest_step=0.1, until=lambda point: point.volume > 100)
+        >>> highest = max(point.pressure for point in path.points)
+        >>> print(f"{highest:.2f} MPa")  # more than that the shell does not hold
+        0.20 MPa
     """
     check_call(problem, options, listener, after)
     check_function("trace: until", until, "a PathPoint")

@@ -35,6 +35,17 @@ class Limit:
             loads, which differ by less than 0.2 % unless no equilibrium was found in between, as
             where a small imperfection of the body or its mesh parts the branches: the body then
             bends away from the path before, and the state behind is on a branch of its own.
+
+    Examples:
+        >>> from solver import Ogden, Problem, Supports, trace
+        >>> from solver.mesh import block
+        >>> shell = block((5, 5, 5), (3, 3, 3), hollow=((0, 0, 0), (2, 2, 2)))  # an eighth
+        >>> held = Supports(symmetry={"x0": 0, "y0": 1, "z0": 2})
+        >>> rubber = Ogden.neo_hooke(0.5)
+        >>> path = trace(Problem(shell, rubber, held, ("cavity",)), 1.0, steps=40, longest_step=0.1)
+        >>> limit = path.limits[0]
+        >>> print(limit.kind, f"{limit.point.pressure:.2f} MPa")
+        maximum 0.20 MPa
     """
 
     kind: Literal["maximum", "minimum", "bifurcation"]

@@ -88,6 +88,16 @@ def solve(
 
     Raises:
         SolverError: invalid input, or numbers that are not finite.
+
+    Examples:
+        >>> from solver import Ogden, Problem, Supports, rotation, solve
+        >>> from solver.mesh import block
+        >>> beam = block((40, 8, 8), (10, 4, 4), hollow=((1, 1, 2), (9, 3, 3)))  # above the middle
+        >>> rubber = Ogden.neo_hooke(0.5)
+        >>> problem = Problem(beam, rubber, Supports(clamped=("x0",)), pressurised=("cavity",))
+        >>> solution = solve(problem, pressure=0.1)
+        >>> print(f"{rotation(beam, solution.displacement, 'x1'):.2f} degrees")
+        0.78 degrees
     """
     check_call(problem, options, listener, after, resume)
     check_initial(initial)

@@ -40,6 +40,16 @@ class Neighbouring:
         failure: why there is none, as text; empty if there is one.
         newton: what the next neighbour takes over.
         peak: the solution's largest stress.
+
+    Examples:
+        >>> from solver import Ogden, Problem, Supports, neighbouring, solve
+        >>> from solver.mesh import block
+        >>> bar, held = block((30, 4, 4), (6, 1, 1)), Supports(("x0", "x1"))
+        >>> start = solve(Problem(bar, Ogden.neo_hooke(0.5), held, ("z1",)), 0.002)
+        >>> stiffer = Problem(bar, Ogden.neo_hooke(0.52), held, ("z1",))
+        >>> next_one = neighbouring(stiffer, 0.002, start)
+        >>> print(next_one.failure or next_one.solution.message)
+        reached 0.002 of 0.002 MPa.
     """
 
     solution: Solution | None
@@ -77,6 +87,20 @@ def neighbouring(
 
     Raises:
         SolverError: invalid input, or a mesh with other tetrahedra or regions.
+
+    Examples:
+        >>> import numpy as np
+        >>> from solver import Ogden, Problem, Supports, neighbouring, solve
+        >>> from solver.mesh import block
+        >>> bar, held = block((30, 4, 4), (6, 1, 1)), Supports(("x0", "x1"))
+        >>> start = solve(Problem(bar, Ogden.neo_hooke(0.5), held, ("z1",)), 0.002)
+        >>> longer_bar = bar.moved(bar.nodes * (1.02, 1, 1))
+        >>> longer = Problem(longer_bar, Ogden.neo_hooke(0.5), held, ("z1",))
+        >>> near, alone = neighbouring(longer, 0.002, start).solution, solve(longer, 0.002)
+        >>> print(np.abs(near.displacement - alone.displacement).max() < 1e-3)
+        True
+        >>> print(near.newton_iterations < alone.newton_iterations)
+        True
     """
     check_call(problem, options, None, None)
     check_solution(near)

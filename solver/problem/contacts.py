@@ -31,6 +31,17 @@ class Contact:
     Raises:
         SolverError: another axis, a penetration that is not positive and finite, or a position that
             is not finite.
+
+    Examples:
+        >>> from solver import Contact, Ogden, Problem, Supports, solve
+        >>> from solver.mesh import block
+        >>> ball = block((10, 10, 10), (2, 2, 2), hollow=((0, 0, 0), (1, 1, 1)))  # an eighth
+        >>> held = Supports(symmetry={"x0": 0, "y0": 1, "z0": 2})
+        >>> wall = Contact("x1", penetration=0.01, axis=0, position=11.0)
+        >>> problem = Problem(ball, Ogden.neo_hooke(0.5), held, ("cavity",), contacts=(wall,))
+        >>> blown = solve(problem, 0.4)
+        >>> print(f"{(ball.nodes + blown.displacement)[:, 0].max():.2f} mm")  # not beyond the plane
+        11.01 mm
     """
 
     surface: str
@@ -71,6 +82,24 @@ class SurfaceContact:
     Raises:
         SolverError: a penetration or reach that is not positive and finite, or a surface that is to
             touch itself.
+
+    Examples:
+        >>> from solver import Mesh, Ogden, Problem, SurfaceContact, Supports, Traction, solve
+        >>> from solver.mesh import block
+        >>> clip = block((12, 4, 6), (6, 1, 3), hollow=((1, 0, 1), (6, 1, 2)))  # two arms
+        >>> heights = clip.nodes[clip.surfaces["cavity"][:, :3]].mean(axis=1)
+        >>> arms = {"lower": heights[:, 2] < 2.1, "upper": heights[:, 2] > 3.9}
+        >>> named = {name: clip.surfaces["cavity"][here] for name, here in arms.items()}
+        >>> mesh = Mesh(clip.nodes, clip.tets, clip.surfaces | named)
+        >>> push = Traction("z1", (0, 0, -0.01))
+        >>> contact = SurfaceContact("upper", "lower", penetration=0.02)
+        >>> rubber = Ogden.neo_hooke(0.5)
+        >>> held = Supports(("z0",))
+        >>> shut = solve(Problem(mesh, rubber, held, loads=(push,), contacts=(contact,)))
+        >>> tip = mesh.surface_nodes("upper")
+        >>> lowest = (mesh.nodes + shut.displacement)[tip, 2].min()
+        >>> print(f"{lowest:.2f} mm")  # on the arm below, at 2 mm
+        1.93 mm
     """
 
     surface: str

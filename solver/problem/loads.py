@@ -31,6 +31,17 @@ class Traction:
             positions.
 
             *Shape:* (3,), or (k, 3) in mm -> (k, 3) in MPa.
+
+    Examples:
+        >>> from solver import Ogden, Problem, Supports, Traction, solve
+        >>> from solver.mesh import block
+        >>> pull = Traction("x1", (0.1, 0, 0))  # a tenth of a MPa along x
+        >>> held = Supports(symmetry={"x0": 0, "y0": 1, "z0": 2})
+        >>> rubber = Ogden.neo_hooke(0.5)
+        >>> bar = solve(Problem(block((30, 4, 4), (2, 1, 1)), rubber, held, loads=(pull,)))
+        >>> stretch = 1 + bar.displacement[:, 0].max() / 30
+        >>> print(f"{0.5 * (stretch - stretch**-2):.4f} MPa")  # the neo-Hookean law at that stretch
+        0.1000 MPa
     """
 
     surface: str
@@ -47,6 +58,16 @@ class BodyForce:
 
             *Shape:* (3,), or (k, 3) in mm -> (k, 3) in N/mm^3.
         region: name of the region; None for the whole body.
+
+    Examples:
+        >>> from solver import BodyForce, Ogden, Problem, Supports, solve
+        >>> from solver.mesh import block
+        >>> weight = BodyForce((0, 0, -1070 * 9.81e-9))  # 1070 kg/m^3
+        >>> rubber = Ogden.neo_hooke(0.5)
+        >>> bar = Problem(block((40, 4, 4), (8, 1, 1)), rubber, Supports(("x0",)), loads=(weight,))
+        >>> sagged = solve(bar)
+        >>> print(f"{sagged.displacement[:, 2].min():.2f} mm")
+        -1.56 mm
     """
 
     density: Field
@@ -60,6 +81,15 @@ class PointForce:
     Attributes:
         position: of the node in the undeformed body, mm.
         force: its components, N.
+
+    Examples:
+        >>> from solver import Ogden, PointForce, Problem, Supports, reaction, solve
+        >>> from solver.mesh import block
+        >>> corner = PointForce((30, 0, 4), (0, 0.01, 0))
+        >>> rubber = Ogden.neo_hooke(0.5)  # MPa
+        >>> bar = Problem(block((30, 4, 4), (6, 1, 1)), rubber, Supports(("x0",)), loads=(corner,))
+        >>> print(f"{reaction(solve(bar), 'x0').force[1]:.3f} N")
+        -0.010 N
     """
 
     position: tuple[float, float, float]
@@ -77,6 +107,15 @@ class EdgeForce:
 
     Raises:
         SolverError: anything but two names, or but three finite numbers.
+
+    Examples:
+        >>> from solver import EdgeForce, Ogden, Problem, Supports, reaction, solve
+        >>> from solver.mesh import block
+        >>> edge = EdgeForce(("x1", "z1"), (0, 0, -0.02))
+        >>> rubber = Ogden.neo_hooke(0.5)  # MPa
+        >>> bar = Problem(block((30, 4, 4), (6, 1, 1)), rubber, Supports(("x0",)), loads=(edge,))
+        >>> print(f"{reaction(solve(bar), 'x0').force[2]:.3f} N")  # the clamp bears it
+        0.020 N
     """
 
     surfaces: tuple[str, str]
@@ -99,6 +138,19 @@ class Couple:
 
     Attributes:
         moment: N mm; positive turns the plane's normal from +x towards -z.
+
+    Examples:
+        >>> import math
+        >>> from solver import Couple, Ogden, Problem, Supports, solve
+        >>> from solver.mesh import block
+        >>> held = Supports(symmetry={"x0": 0, "y0": 1})
+        >>> rubber = Ogden.neo_hooke(0.5)  # MPa
+        >>> cell = block((3, 4, 4), (1, 2, 4))
+        >>> problem = Problem(cell, rubber, held, loads=(Couple(1.0),), moving_plane="x1")
+        >>> tilt, shift = solve(problem).plane
+        >>> # a beam: 3 mm * 1 N mm / (1.5 MPa * 21.3 mm^4)
+        >>> print(f"{math.degrees(tilt):.2f} degrees")
+        5.39 degrees
     """
 
     moment: float
@@ -113,6 +165,18 @@ class AxialForce:
 
     Attributes:
         force: N; positive pulls the plane along +x.
+
+    Examples:
+        >>> from solver import AxialForce, Ogden, Problem, Supports, solve
+        >>> from solver.mesh import block
+        >>> held = Supports(symmetry={"x0": 0, "y0": 1})
+        >>> rubber = Ogden.neo_hooke(0.5)  # MPa
+        >>> cell = block((3, 4, 4), (1, 2, 2))
+        >>> cell = cell.moved(cell.nodes - (0, 0, 2))  # the section's middle at z = 0
+        >>> problem = Problem(cell, rubber, held, loads=(AxialForce(1.0),), moving_plane="x1")
+        >>> tilt, shift = solve(problem).plane
+        >>> print(f"{shift:.3f} mm")  # linear theory: 3 mm * 1 N / (1.5 MPa * 16 mm^2) = 0.125 mm
+        0.130 mm
     """
 
     force: float

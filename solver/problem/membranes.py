@@ -33,6 +33,18 @@ class Membrane:
 
     Raises:
         SolverError: a number that is not one, or out of its bounds.
+
+    Examples:
+        >>> from solver import Membrane, Ogden, Problem, Supports, Traction, solve
+        >>> from solver.mesh import block
+        >>> bar, pull = block((30, 4, 4), (6, 1, 1)), Traction("x1", (0.01, 0, 0))
+        >>> held, rubber = Supports(("x0",)), Ogden.neo_hooke(0.5)
+        >>> film = Membrane("z0", young_modulus=500.0, poisson_ratio=0.3, thickness=0.05)
+        >>> for films in ((), (film,)):
+        ...     solution = solve(Problem(bar, rubber, held, loads=(pull,), membranes=films))
+        ...     print(f"{solution.displacement[:, 2].min():.2f} mm")  # it bends towards the film
+        -0.01 mm
+        -0.66 mm
     """
 
     surface: str

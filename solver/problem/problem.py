@@ -34,6 +34,18 @@ class SlenderAxis:
 
     Raises:
         SolverError: fewer than two stations, or ones that are not finite or not ascending.
+
+    Examples:
+        >>> from solver import Ogden, Problem, SlenderAxis, Supports, Traction, solve
+        >>> from solver.mesh import block
+        >>> bend = Traction("x1", (0, 0, -0.004))
+        >>> bar = block((60, 4, 4), (12, 1, 1))
+        >>> axis = SlenderAxis((0.0, 15.0, 30.0, 45.0, 60.0))  # where it is held, and what follows
+        >>> held, rubber = Supports(("x0",)), Ogden.neo_hooke(0.5)
+        >>> problem = Problem(bar, rubber, held, loads=(bend,), axis=axis)
+        >>> solution = solve(problem)
+        >>> print(solution.message, solution.load_steps)
+        reached 100 % of the load. 2
     """
 
     stations: tuple[float, ...]
@@ -80,6 +92,15 @@ class Problem:
             outer faces, the moving plane is not plane, loads, springs, membranes or rigid bodies do
             not go with it, a contact has no plane, supports and springs leave a rigid motion free,
             or the supports leave the pressure of an incompressible body or region undetermined.
+
+    Examples:
+        >>> from solver import Ogden, Problem, Supports, solve
+        >>> from solver.mesh import block
+        >>> beam = block((40, 8, 8), (10, 4, 4), hollow=((1, 1, 2), (9, 3, 3)))  # above the middle
+        >>> rubber = Ogden.neo_hooke(0.5)
+        >>> problem = Problem(beam, rubber, Supports(clamped=("x0",)), pressurised=("cavity",))
+        >>> print(solve(problem, pressure=0.02).message)
+        reached 0.02 of 0.02 MPa.
     """
 
     mesh: Mesh

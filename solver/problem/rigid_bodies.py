@@ -107,6 +107,18 @@ class RigidPlane(RigidBody):
         SolverError: a penetration that is not positive and finite, a normal or point that is not
             three finite numbers, a normal of length zero, or a motion that is no function of the
             load or does not give three finite numbers.
+
+    Examples:
+        >>> from solver import Ogden, Problem, RigidPlane, Supports, contact_forces, solve
+        >>> from solver.mesh import block
+        >>> down = lambda load: (0, 0, -0.4 * load)  # by 10 %
+        >>> plate = RigidPlane("z1", 0.005, (0, 0, -1), (0, 0, 4), motion=down)
+        >>> held = Supports(symmetry={"x0": 0, "y0": 1, "z0": 2})
+        >>> rubber = Ogden.neo_hooke(0.5)
+        >>> pressed = solve(Problem(block((4, 4, 4), (2, 2, 2)), rubber, held, contacts=(plate,)))
+        >>> exact = 0.5 * 16 * (0.9**-2 - 0.9)  # without penetration
+        >>> print(f"{-contact_forces(pressed)[0].force[2]:.2f}, {exact:.2f} N")
+        2.66, 2.68 N
     """
 
     kind = "plane"
@@ -167,6 +179,16 @@ class RigidCylinder(RigidBody):
         SolverError: a penetration or radius that is not positive and finite, a point or direction
             that is not three finite numbers, a direction of length zero, or a motion that is no
             function of the load or does not give three finite numbers.
+
+    Examples:
+        >>> from solver import Ogden, Problem, RigidCylinder, Supports, contact_forces, solve
+        >>> from solver.mesh import block
+        >>> bar = block((20, 4, 2), (10, 1, 1))
+        >>> down = lambda load: (0, 0, -2 * load)
+        >>> rod = RigidCylinder("z1", 0.01, (20, 0, 5), (0, 1, 0), 3.0, motion=down)
+        >>> pushed = solve(Problem(bar, Ogden.neo_hooke(0.5), Supports(("x0",)), contacts=(rod,)))
+        >>> print(f"{contact_forces(pushed)[0].force[2]:.3f} N")
+        -0.003 N
     """
 
     kind = "cylinder"
@@ -218,6 +240,17 @@ class RigidSphere(RigidBody):
         SolverError: a penetration or radius that is not positive and finite, a centre that is not
             three finite numbers, or a motion that is no function of the load or does not give three
             finite numbers.
+
+    Examples:
+        >>> from solver import Ogden, Problem, RigidSphere, Supports, contact_forces, solve
+        >>> from solver.mesh import block
+        >>> pad = block((6, 6, 4), (4, 4, 2))  # a quarter: planes of symmetry at x = 0 and y = 0
+        >>> ball = RigidSphere("z1", 0.01, (0, 0, 9), 5.0, motion=lambda load: (0, 0, -0.4 * load))
+        >>> held = Supports(("z0",), symmetry={"x0": 0, "y0": 1})
+        >>> pressed = solve(Problem(pad, Ogden.neo_hooke(0.5), held, contacts=(ball,)))
+        >>> (found,) = contact_forces(pressed)
+        >>> print(f"{-4 * found.force[2]:.2f} N, deepest {found.gap:.3f} mm")
+        2.28 N, deepest -0.011 mm
     """
 
     kind = "sphere"

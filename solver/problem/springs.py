@@ -41,6 +41,18 @@ class FoundationSpring:
 
     Raises:
         SolverError: another shape, or a stiffness that is negative, not symmetric or not finite.
+
+    Examples:
+        >>> from solver import FoundationSpring, Ogden, Problem, Supports, Traction, solve
+        >>> from solver.mesh import block
+        >>> bed = FoundationSpring("z0", (0, 0, 0.05))  # N/mm^3, along z alone
+        >>> held = Supports(symmetry={"x0": 0, "y0": 1})
+        >>> push = Traction("z1", (0, 0, -0.01))
+        >>> rubber = Ogden.neo_hooke(0.5)
+        >>> cube = block((4, 4, 4), (1, 1, 1))
+        >>> sunk = solve(Problem(cube, rubber, held, loads=(push,), springs=(bed,)))
+        >>> print(f"{sunk.displacement[:, 2].max():.3f} mm")  # 0.01 / 0.05 at the bottom
+        -0.200 mm
     """
 
     surface: str
@@ -65,6 +77,18 @@ class NodeSpring:
 
     Raises:
         SolverError: another shape, or a stiffness that is negative, not symmetric or not finite.
+
+    Examples:
+        >>> from solver import NodeSpring, Ogden, Problem, Supports, Traction, solve
+        >>> from solver.mesh import block
+        >>> spring = NodeSpring((30, 0, 0), (0, 0, 0.05))  # N/mm
+        >>> bend = Traction("x1", (0, 0, -0.001))
+        >>> bar = block((30, 4, 4), (6, 1, 1))
+        >>> rubber = Ogden.neo_hooke(0.5)
+        >>> free = solve(Problem(bar, rubber, Supports(("x0",)), loads=(bend,)))
+        >>> held = solve(Problem(bar, rubber, Supports(("x0",)), loads=(bend,), springs=(spring,)))
+        >>> print(f"{free.displacement[:, 2].min():.2f} mm, {held.displacement[:, 2].min():.2f} mm")
+        -4.16 mm, -0.49 mm
     """
 
     position: Vector

@@ -50,6 +50,18 @@ class Supports:
     Raises:
         SolverError: an axis other than 0, 1 or 2, a position that is not three finite numbers, or
             anything but names, axes and functions where they belong.
+
+    Examples:
+        >>> from solver import Ogden, Problem, Supports, solve
+        >>> from solver.mesh import block
+        >>> held = Supports(
+        ...     clamped=("x0",),
+        ...     symmetry={"y0": 1},  # no displacement along y
+        ...     prescribed={"x1": lambda at, load: at * 0 + (3.0 * load, 0, 0)},  # up to 3 mm
+        ... )
+        >>> stretched = solve(Problem(block((30, 4, 4), (6, 1, 1)), Ogden.neo_hooke(0.5), held))
+        >>> print(f"{stretched.displacement[:, 0].max():.1f} mm")
+        3.0 mm
     """
 
     clamped: tuple[str, ...] = ()

@@ -31,6 +31,18 @@ class ContactForce:
             do not.
         gap: least signed distance of the surface, mm; in contact minus the
             penetration. Infinite where another surface is not near.
+
+    Examples:
+        >>> from solver import Ogden, Problem, RigidPlane, Supports, contact_forces, solve
+        >>> from solver.mesh import block
+        >>> down = lambda load: (0, 0, -0.4 * load)  # by 10 %
+        >>> plate = RigidPlane("z1", 0.005, (0, 0, -1), (0, 0, 4), motion=down)
+        >>> held = Supports(symmetry={"x0": 0, "y0": 1, "z0": 2})
+        >>> rubber = Ogden.neo_hooke(0.5)
+        >>> pressed = solve(Problem(block((4, 4, 4), (2, 2, 2)), rubber, held, contacts=(plate,)))
+        >>> (found,) = contact_forces(pressed)
+        >>> print(f"{found.force[2]:.2f} N on {found.area:.1f} mm^2")
+        -2.66 N on 17.8 mm^2
     """
 
     force: Reals
@@ -56,6 +68,16 @@ def contact_forces(
 
     Raises:
         SolverError: a point that is not three finite numbers.
+
+    Examples:
+        >>> from solver import Ogden, Problem, RigidPlane, Supports, contact_forces, solve
+        >>> from solver.mesh import block
+        >>> far = RigidPlane("z1", 0.005, (0, 0, -1), (0, 0, 6))  # 2 mm above the block
+        >>> held = Supports(symmetry={"x0": 0, "y0": 1, "z0": 2})
+        >>> rubber = Ogden.neo_hooke(0.5)
+        >>> alone = solve(Problem(block((4, 4, 4), (1, 1, 1)), rubber, held, contacts=(far,)))
+        >>> print([f"{found.gap:.1f} mm" for found in contact_forces(alone)])
+        ['2.0 mm']
     """
     check_solution(solution)
     point = finite("contact_forces: about (mm)", about, (3,))

@@ -36,6 +36,16 @@ class Potential:
         contacts: stored in the penetration of contacts, N mm; it vanishes with their depth.
         loads: of dead loads and pressure, N mm: minus the work that they would do at their present
             size on the straight way from the undeformed body.
+
+    Examples:
+        >>> from solver import Ogden, Problem, Supports, Traction, potential, solve
+        >>> from solver.mesh import block
+        >>> held = Supports(symmetry={"x0": 0, "y0": 1, "z0": 2})
+        >>> pull = Traction("x1", (0.01, 0, 0))
+        >>> bar = Problem(block((30, 4, 4), (6, 1, 1)), Ogden.neo_hooke(0.5), held, loads=(pull,))
+        >>> energy = potential(solve(bar))
+        >>> print(f"{energy.loads / energy.strain:.2f}")  # nearly -2, as small strains are linear
+        -2.00
     """
 
     strain: float
@@ -63,6 +73,17 @@ def strain_energy(solution: Solution) -> float:
 
     Returns:
         N mm; of a symmetric part its own share.
+
+    Examples:
+        >>> from solver import Ogden, Problem, Supports, Traction, solve, strain_energy
+        >>> from solver.mesh import block
+        >>> held, pull = Supports(symmetry={"x0": 0, "y0": 1, "z0": 2}), Traction("x1", (0.1, 0, 0))
+        >>> rubber = Ogden.neo_hooke(0.5)
+        >>> bar = solve(Problem(block((30, 4, 4), (6, 1, 1)), rubber, held, loads=(pull,)))
+        >>> stretch = 1 + bar.displacement[:, 0].max() / 30
+        >>> density = 0.5 / 2 * (stretch**2 + 2 / stretch - 3)  # of the neo-Hookean law, N/mm^2
+        >>> print(f"{strain_energy(bar):.4f}, {density * 30 * 4 * 4:.4f} N mm")
+        1.7493, 1.7493 N mm
     """
     check_solution(solution)
     state = solution.state
@@ -84,6 +105,14 @@ def potential(solution: Solution) -> Potential:
     Raises:
         SolverError: there is pressure on a surface with a free rim: the work of the pressure then
             depends on the way, and it has no potential (``work`` holds there too).
+
+    Examples:
+        >>> from solver import Ogden, Problem, Supports, Traction, potential, solve
+        >>> from solver.mesh import block
+        >>> held, pull = Supports(symmetry={"x0": 0, "y0": 1, "z0": 2}), Traction("x1", (0.1, 0, 0))
+        >>> bar = Problem(block((30, 4, 4), (6, 1, 1)), Ogden.neo_hooke(0.5), held, loads=(pull,))
+        >>> print(f"{potential(solve(bar)).total:.3f} N mm")  # below zero: the load has gone along
+        -1.673 N mm
     """
     check_solution(solution)
     problem, state, load = solution.problem, solution.state, solution.load

@@ -29,6 +29,15 @@ class Folds:
         positions: of their centres in the undeformed body.
 
             *Shape:* (k, 3) in mm.
+
+    Examples:
+        >>> from solver import Ogden, Problem, Supports, folded_elements, solve
+        >>> from solver.mesh import block
+        >>> rubber = Ogden.neo_hooke(0.5)
+        >>> bar = Problem(block((30, 4, 4), (6, 1, 1)), rubber, Supports(("x0", "x1")), ("z1",))
+        >>> folds = folded_elements(solve(bar, 0.002))
+        >>> print(len(folds.elements), folds.positions.shape)
+        0 (0, 3)
     """
 
     elements: Integers

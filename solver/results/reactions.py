@@ -32,6 +32,16 @@ class Reaction:
         by_traction: which components of the force two supports share at some nodes, where each
             one's part follows from the traction on its surface; the others are sums of nodal
             forces, as accurate as the equilibrium itself.
+
+    Examples:
+        >>> from solver import Ogden, Problem, Supports, Traction, reaction, solve
+        >>> from solver.mesh import block
+        >>> bend = Traction("x1", (0, 0, -0.001))
+        >>> rubber = Ogden.neo_hooke(0.5)  # MPa
+        >>> bar = Problem(block((30, 4, 4), (6, 1, 1)), rubber, Supports(("x0",)), loads=(bend,))
+        >>> clamp = reaction(solve(bar), "x0", about=(0, 2, 2))
+        >>> print(f"{clamp.force[2]:.3f} N, {clamp.moment[1]:.2f} N mm")
+        0.016 N, -0.47 N mm
     """
 
     force: Reals
@@ -62,6 +72,16 @@ def reaction(
 
     Raises:
         SolverError: an unknown surface, or a point that is not three finite numbers.
+
+    Examples:
+        >>> from solver import Ogden, Problem, Supports, reaction, solve
+        >>> from solver.mesh import block
+        >>> led = {"x1": lambda at, load: at * 0 + (3 * load, 0, 0)}
+        >>> pulled = Supports(("x0",), prescribed=led)
+        >>> stretched = solve(Problem(block((30, 4, 4), (6, 1, 1)), Ogden.neo_hooke(0.5), pulled))
+        >>> both = (reaction(stretched, side).force[0] for side in ("x0", "x1"))
+        >>> print([f"{force:.3f} N" for force in both])
+        ['-2.283 N', '2.283 N']
     """
     check_solution(solution)
     point = finite("reaction: about (mm)", about, (3,))

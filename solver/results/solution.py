@@ -37,6 +37,22 @@ class PathPoint:
         stable: whether it is stable at constant load; None where the linear solver cannot tell.
         stable_at_volume: whether it is stable while its volume is held, on a path of ``inflate``;
             else, and where the linear solver cannot tell, None.
+
+    Examples:
+        >>> from solver import Ogden, Problem, Supports, solve
+        >>> from solver.mesh import block
+        >>> shell = block((5, 5, 5), (2, 2, 2), hollow=((0, 0, 0), (1, 1, 1)))  # an eighth
+        >>> held = Supports(symmetry={"x0": 0, "y0": 1, "z0": 2})
+        >>> problem = Problem(shell, Ogden.neo_hooke(0.5), held, ("cavity",))
+        >>> blown = solve(problem, 0.1, stops=(0.05,))
+        >>> for point in blown.path:
+        ...     print(f"{point.pressure:.3f} MPa {point.volume:.1f} mm^3 {point.stable}")
+        0.000 MPa 15.6 mm^3 True
+        0.010 MPa 16.0 mm^3 True
+        0.030 MPa 16.7 mm^3 True
+        0.050 MPa 17.6 mm^3 True
+        0.090 MPa 19.4 mm^3 True
+        0.100 MPa 19.9 mm^3 True
     """
 
     pressure: float
@@ -90,6 +106,20 @@ class Solution:
 
             *Shape:* (2,).
         bifurcations: points on a path of ``inflate`` at which another branch begins.
+
+    Examples:
+        >>> from solver import Ogden, Problem, Supports, Traction, solve
+        >>> from solver.mesh import block
+        >>> bend = Traction("x1", (0, 0, -0.001))
+        >>> rubber = Ogden.neo_hooke(0.5)  # MPa
+        >>> bar = Problem(block((30, 4, 4), (6, 1, 1)), rubber, Supports(("x0",)), loads=(bend,))
+        >>> solution = solve(bar)
+        >>> print(solution.converged, solution.stable, solution.message)
+        True True reached 100 % of the load.
+        >>> print(solution.displacement.shape == bar.mesh.nodes.shape)
+        True
+        >>> print(f"{solution.displacement[:, 2].min():.2f} mm")
+        -4.16 mm
     """
 
     problem: Problem
@@ -159,6 +189,15 @@ def folded_elements(solution: Solution) -> Folds:
 
     Returns:
         The elements and where they lie; J is bounded all over each of them.
+
+    Examples:
+        >>> from solver import Ogden, Problem, Supports, folded_elements, solve
+        >>> from solver.mesh import block
+        >>> led = {"x1": lambda at, load: at * 0 - (4.5 * load, 0, 0)}
+        >>> shut = Supports(("x0",), prescribed=led)
+        >>> crushed = solve(Problem(block((6, 6, 6), (1, 1, 1)), Ogden.neo_hooke(0.5), shut))
+        >>> print(crushed.load, len(folded_elements(crushed).elements))
+        1.0 0
     """
     check_solution(solution)
     return folds_of(solution.problem.mesh, solution.displacement)
@@ -172,6 +211,17 @@ def membrane_forces(solution: Solution) -> tuple[MembraneForces, ...]:
 
     Returns:
         Those of each of ``Problem.membranes``, in their order.
+
+    Examples:
+        >>> from solver import Membrane, Ogden, Problem, Supports, Traction, membrane_forces, solve
+        >>> from solver.mesh import block
+        >>> film = Membrane("z0", young_modulus=500.0, poisson_ratio=0.3, thickness=0.05)
+        >>> sheet, pull = block((10, 4, 0.1), (5, 2, 1)), Traction("x1", (1.0, 0, 0))
+        >>> held = Supports(symmetry={"x0": 0, "y0": 1, "z0": 2})
+        >>> problem = Problem(sheet, Ogden.neo_hooke(0.1), held, loads=(pull,), membranes=(film,))
+        >>> (forces,) = membrane_forces(solve(problem))
+        >>> print(f"{forces.highest:.3f} N/mm")  # nearly the 1 MPa on 0.1 mm: the rubber is soft
+        0.103 N/mm
     """
     check_solution(solution)
     return forces_of(solution.problem, solution.displacement)
@@ -192,6 +242,14 @@ def cavity_volume(mesh: Mesh, displacement: Reals, surfaces: tuple[str, ...]) ->
 
     Raises:
         SolverError: an unknown surface, or displacements that are not of the mesh's nodes.
+
+    Examples:
+        >>> import numpy as np
+        >>> from solver import cavity_volume
+        >>> from solver.mesh import block
+        >>> shell = block((5, 5, 5), (5, 5, 5), hollow=((1, 1, 1), (4, 4, 4)))
+        >>> print(round(cavity_volume(shell, np.zeros_like(shell.nodes), ("cavity",)), 6), "mm^3")
+        27.0 mm^3
     """
     check_instance("cavity_volume: mesh", mesh, Mesh)
     check_displacement("cavity_volume: displacement", displacement, len(mesh.nodes))

@@ -25,6 +25,14 @@ def write_vtu(path: Path | str, solution: Solution) -> None:
     Raises:
         SolverError: a path with another ending.
         OSError: the file cannot be written.
+
+    Examples:
+        >>> from solver import Ogden, Problem, Supports, Traction, solve, write_vtu
+        >>> from solver.mesh import block
+        >>> bend = Traction("x1", (0, 0, -0.001))
+        >>> rubber = Ogden.neo_hooke(0.5)  # MPa
+        >>> bar = Problem(block((30, 4, 4), (6, 1, 1)), rubber, Supports(("x0",)), loads=(bend,))
+        >>> write_vtu("bar.vtu", solve(bar))
     """
     import meshio
 

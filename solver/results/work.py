@@ -33,6 +33,18 @@ class Work:
         loads: by dead loads, and by what is left of a stage before, N mm.
         supports: by supports that are led, N mm.
         planes: by rigid planes, cylinders and spheres that move, N mm.
+
+    Examples:
+        >>> from solver import Ogden, Problem, Supports, potential, solve, work
+        >>> from solver.mesh import block
+        >>> shell = block((5, 5, 5), (2, 2, 2), hollow=((0, 0, 0), (1, 1, 1)))  # an eighth
+        >>> held = Supports(symmetry={"x0": 0, "y0": 1, "z0": 2})
+        >>> rubber = Ogden.neo_hooke(0.5)
+        >>> problem = Problem(shell, rubber, held, ("cavity",))
+        >>> blown = solve(problem, 0.1, stops=(0.025, 0.05, 0.075))
+        >>> done = work((*blown.at_stops, blown))
+        >>> print(f"{done.pressure:.2f} N mm done, {potential(blown).stored:.2f} N mm stored")
+        0.23 N mm done, 0.23 N mm stored
     """
 
     pressure: float
@@ -62,6 +74,16 @@ def work(solutions: Sequence[Solution]) -> Work:
 
     Raises:
         SolverError: no solution, or solutions with different meshes or numbers of contacts.
+
+    Examples:
+        >>> from solver import Ogden, Problem, Supports, solve, work
+        >>> from solver.mesh import block
+        >>> led = {"x1": lambda at, load: at * 0 + (3 * load, 0, 0)}
+        >>> pulled = Supports(("x0",), prescribed=led)
+        >>> bar = Problem(block((30, 4, 4), (6, 1, 1)), Ogden.neo_hooke(0.5), pulled)
+        >>> end = solve(bar, stops=(0.25, 0.5, 0.75))
+        >>> print(f"{work((*end.at_stops, end)).supports:.2f} N mm")  # of the support that is led
+        3.52 N mm
     """
     given = members_of("work: solutions", solutions, (Solution,))
     solutions = [each for each in given if isinstance(each, Solution)]

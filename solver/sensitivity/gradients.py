@@ -56,6 +56,17 @@ class ResponseGradient:
         adjoint: direction of the adjoint, for further derivatives.
         residual: relative residual of the adjoint.
         remaining: first-order change of the response by the residual that the solve has left.
+
+    Examples:
+        >>> from solver import Ogden, Problem, Supports, gradients, solve
+        >>> from solver.mesh import block
+        >>> shell = block((5, 5, 5), (2, 2, 2), hollow=((0, 0, 0), (1, 1, 1)))  # an eighth
+        >>> held = Supports(symmetry={"x0": 0, "y0": 1, "z0": 2})
+        >>> found = gradients(solve(Problem(shell, Ogden.neo_hooke(0.5), held, ("cavity",)), 0.05))
+        >>> volume = found.responses["volume"]
+        >>> larger = (volume.nodes * shell.nodes).sum()  # by the size of the whole body
+        >>> print(f"{larger / volume.value:.4f}")
+        3.0000
     """
 
     value: float
@@ -80,6 +91,15 @@ class Gradients:
         reach: change of the loads, as a fraction of them, over which a first order holds, see
             ``solver.sensitivity.reach``; None without pressure and dead loads.
         factorizations: how many were made, 0 if that at hand was enough.
+
+    Examples:
+        >>> from solver import Ogden, Problem, Supports, gradients, solve
+        >>> from solver.mesh import block
+        >>> shell = block((5, 5, 5), (2, 2, 2), hollow=((0, 0, 0), (1, 1, 1)))  # an eighth
+        >>> held = Supports(symmetry={"x0": 0, "y0": 1, "z0": 2})
+        >>> found = gradients(solve(Problem(shell, Ogden.neo_hooke(0.5), held, ("cavity",)), 0.05))
+        >>> print(sorted(found.responses))
+        ['peak_stress', 'volume']
     """
 
     solution: Solution
@@ -144,6 +164,18 @@ def gradients(
     Raises:
         SolverError: a solution that is not converged, a response that it does not have, or a
             tangent that is singular.
+
+    Examples:
+        >>> from solver import Ogden, Problem, Supports, gradients, solve
+        >>> from solver.mesh import block
+        >>> shell = block((5, 5, 5), (2, 2, 2), hollow=((0, 0, 0), (1, 1, 1)))  # an eighth
+        >>> held = Supports(symmetry={"x0": 0, "y0": 1, "z0": 2})
+        >>> problem = Problem(shell, Ogden.neo_hooke(0.5), held, ("cavity",))
+        >>> found = gradients(solve(problem, 0.05), responses=("volume",))
+        >>> ahead, behind = (solve(problem, 0.05 + step).path[-1].volume for step in (1e-4, -1e-4))
+        >>> by_pressure = found.responses["volume"].pressure
+        >>> print(f"{by_pressure:.2f}, {(ahead - behind) / 2e-4:.2f} mm^3/MPa")
+        42.23, 42.23 mm^3/MPa
     """
     check_equilibrium(solution)
     check_number("sensitivities: sharpness", sharpness)

@@ -42,6 +42,13 @@ def constant_changes(material: Hyperelastic) -> dict[str, MaterialChange]:
     Returns:
         name -> materials ahead and behind, and the difference of the constant between them. The
         bulk modulus is among them if it is finite.
+
+    Examples:
+        >>> from solver import Ogden, constant_changes
+        >>> changes = constant_changes(Ogden((0.4,), (1.8,)))
+        >>> ahead, behind, step = changes["mu_1"]
+        >>> print(sorted(changes), ahead.mu[0] > behind.mu[0], step > 0)
+        ['alpha_1', 'mu_1'] True True
     """
     changes: dict[str, MaterialChange] = {}
     for each in fields(material):  # type: ignore[arg-type]
@@ -72,6 +79,19 @@ def material_derivatives(
     Raises:
         SolverError: anything but two materials and a step other than zero, or a region that has no
             material of its own.
+
+    Examples:
+        >>> from solver import Ogden, Problem, Supports, solve
+        >>> from solver import constant_changes, gradients, material_derivatives
+        >>> from solver.mesh import block
+        >>> shell = block((5, 5, 5), (2, 2, 2), hollow=((0, 0, 0), (1, 1, 1)))  # an eighth
+        >>> held = Supports(symmetry={"x0": 0, "y0": 1, "z0": 2})
+        >>> rubber = Ogden.neo_hooke(0.5)
+        >>> blown = solve(Problem(shell, rubber, held, ("cavity",)), 0.05)
+        >>> found = gradients(blown, responses=("volume",))
+        >>> by = material_derivatives(found, constant_changes(rubber))
+        >>> print(by["volume"]["mu_1"] < 0)  # a stiffer shell holds less
+        True
     """
     number = _number_of(found, region)
     if not changes:

@@ -36,6 +36,16 @@ class Sensitivities:
             without pressure and dead loads.
         factorizations: how many were made, 0 if that at hand was enough.
         warnings: sentences on what makes the derivatives less reliable than they look.
+
+    Examples:
+        >>> from solver import Ogden, Problem, Supports, sensitivities, solve
+        >>> from solver.mesh import block
+        >>> shell = block((5, 5, 5), (2, 2, 2), hollow=((0, 0, 0), (1, 1, 1)))  # an eighth
+        >>> held = Supports(symmetry={"x0": 0, "y0": 1, "z0": 2})
+        >>> blown = solve(Problem(shell, Ogden.neo_hooke(0.5), held, ("cavity",)), 0.05)
+        >>> found = sensitivities(blown, {"scale": shell.nodes})  # the whole body grows
+        >>> print(f"{found.derivatives['volume']['scale'] / found.responses['volume']:.3f}")
+        3.000
     """
 
     responses: Mapping[str, float]
@@ -79,6 +89,17 @@ def sensitivities(
 
     Raises:
         SolverError: as ``gradients``, or parameters that share a name.
+
+    Examples:
+        >>> from solver import Ogden, Problem, Supports, constant_changes, sensitivities, solve
+        >>> from solver.mesh import block
+        >>> shell = block((5, 5, 5), (2, 2, 2), hollow=((0, 0, 0), (1, 1, 1)))  # an eighth
+        >>> held = Supports(symmetry={"x0": 0, "y0": 1, "z0": 2})
+        >>> rubber = Ogden.neo_hooke(0.5)
+        >>> blown = solve(Problem(shell, rubber, held, ("cavity",)), 0.05)
+        >>> by = sensitivities(blown, materials=constant_changes(rubber)).derivatives["volume"]
+        >>> print(f"{by['pressure'] * 0.05 + by['mu_1'] * 0.5:.1e}")  # both at once change nothing
+        -1.8e-13
     """
     velocities, materials = dict(velocities or {}), dict(materials or {})
     _check_names(velocities, materials)

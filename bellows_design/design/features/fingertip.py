@@ -16,6 +16,14 @@ class Fingertip(Parameters):
 
     Ribs across it stay when grooves are cut into that lower side, so they stand on the bed and
     need no support; the first begins at the tip's face, the last ends with the pad.
+
+    Examples:
+        >>> from bellows_design.design import Design, Fingertip, load_design
+        >>> pad = Fingertip(length=12, width=16, thickness=3.2, ribs=4)  # mm
+        >>> table = load_design("finger").model_dump()
+        >>> finger = Design.of(table | {"name": "padded", "fingertip": pad})
+        >>> print(finger.finger_length, "mm")
+        62.0 mm
     """
 
     length: Millimetres = length_field(2, 100, "length beyond the tip, along x")

@@ -25,6 +25,14 @@ class Mount(Parameters):
     on it around the boss, with holes along x beside the bubbles, so that a screw's head and its
     tool pass them. The holes are made in the plate before it is fused to the boss: whatever their
     places, they cannot open the socket.
+
+    Examples:
+        >>> from bellows_design.design import Design, Mount, load_design
+        >>> foot = Mount(kind="foot", hole_diameter=3.4)  # mm, for M3
+        >>> table = load_design("finger").model_dump()
+        >>> finger = Design.of(table | {"name": "standing", "mount": foot})
+        >>> print(len(foot.hole_places(finger.bellows, finger.port)), "holes")
+        2 holes
     """
 
     kind: Literal["foot", "flange"] = Field(

@@ -65,6 +65,15 @@ def load_measurements(
     Raises:
         DesignError: A file cannot be read, is open to several readings, or a value is out of
             bounds; one sentence.
+
+    Examples:
+        >>> from pathlib import Path
+        >>> from bellows_design.materials import load_measurements
+        >>> rows = [f"uniaxial,{s},{0.4 * (s - s**-2):.4f}" for s in (1.1, 1.2, 1.4, 1.6, 1.8, 2.0)]
+        >>> _ = Path("test.csv").write_text("\\n".join(["mode,stretch,stress_mpa", *rows]))
+        >>> tests = load_measurements("test.csv")
+        >>> print(len(tests.stretch), "points")
+        6 points
     """
     files = [Path(paths)] if isinstance(paths, str | Path) else [Path(path) for path in paths]
     if not 1 <= len(files) <= MOST_FILES:

@@ -34,6 +34,15 @@ class ReadingOptions:
 
     Raises:
         DesignError: A value is none of these.
+
+    Examples:
+        >>> from pathlib import Path
+        >>> from bellows_design.materials import ReadingOptions, load_measurements
+        >>> _ = Path("test.txt").write_text("5;50\\n10;100\\n20;180\\n40;310\\n80;500\\n")
+        >>> units = "strain=%,stress=kPa"
+        >>> options = ReadingOptions(columns="strain,stress", units=units, keep=("zero",))
+        >>> print(load_measurements("test.txt", options).stress, "MPa")
+        [0.05 0.1  0.18 0.31 0.5 ] MPa
     """
 
     columns: str | None = None

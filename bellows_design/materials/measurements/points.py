@@ -41,6 +41,15 @@ class Measurements:
         spread: Standard deviation over the specimens that a point is the mean of, MPa. *Shape:*
             (n,); None where no test has more than one specimen.
         reading: How they were read.
+
+    Examples:
+        >>> from pathlib import Path
+        >>> from bellows_design.materials import load_measurements
+        >>> rows = ("strain (%),stress (MPa)", "5,0.05", "10,0.1", "20,0.18", "40,0.31", "80,0.5")
+        >>> _ = Path("test.csv").write_text("\\n".join(rows))
+        >>> tests = load_measurements("test.csv")
+        >>> print(tests.stretch, tests.stress, "MPa")
+        [1.05 1.1  1.2  1.4  1.8 ] [0.05 0.1  0.18 0.31 0.5 ] MPa
     """
 
     name: str

@@ -80,6 +80,16 @@ def inflate(
         SolverError: no pressurised surface, a free rim of it or an opening that slides in a plane
             normal to y elsewhere than at y = 0, a volume inside that cannot change, volumes of the
             wrong sign, or not in order between the one at no pressure and ``volume``.
+
+    Examples:
+        >>> from solver import Ogden, Problem, Supports, inflate
+        >>> from solver.mesh import block
+        >>> shell = block((5, 5, 5), (3, 3, 3), hollow=((0, 0, 0), (2, 2, 2)))  # 37 mm^3 of air
+        >>> held = Supports(symmetry={"x0": 0, "y0": 1, "z0": 2})
+        >>> blown = inflate(Problem(shell, Ogden.neo_hooke(0.5), held, ("cavity",)), 300.0)
+        >>> highest = max(point.pressure for point in blown.path)
+        >>> print(f"{blown.pressure:.2f} MPa, before {highest:.2f} MPa")
+        0.19 MPa, before 0.20 MPa
     """
     start = time.perf_counter()
     check_call(problem, options, listener, after)

@@ -43,6 +43,17 @@ class MembraneForces:
 
             *Shape:* (k,) in mm^2.
         stiffness: Young's modulus times thickness, N/mm.
+
+    Examples:
+        >>> from solver import Membrane, Ogden, Problem, Supports, Traction, membrane_forces, solve
+        >>> from solver.mesh import block
+        >>> bar, pull = block((30, 4, 4), (6, 1, 1)), Traction("x1", (0.01, 0, 0))
+        >>> film = Membrane("z0", young_modulus=500.0, poisson_ratio=0.3, thickness=0.05)
+        >>> rubber = Ogden.neo_hooke(0.5)
+        >>> problem = Problem(bar, rubber, Supports(("x0",)), loads=(pull,), membranes=(film,))
+        >>> (forces,) = membrane_forces(solve(problem))
+        >>> print(forces.principal.shape, forces.stiffness, "N/mm")
+        (12, 2) 25.0 N/mm
     """
 
     surface: str

@@ -51,6 +51,17 @@ class SectionDerivatives:
             *Shape:* (3, 3).
         residual: largest relative residual of the three linear systems.
         factorizations: how many were made, 0 if that at hand was enough.
+
+    Examples:
+        >>> from solver import Ogden, Problem, Supports, section_response, solve
+        >>> from solver.mesh import block
+        >>> cell = block((3, 4, 4), (2, 2, 2), hollow=((0, 0, 0), (2, 1, 1)))  # a quarter of a tube
+        >>> held = Supports(symmetry={"x0": 0, "y0": 1, "z0": 2})
+        >>> rubber = Ogden.neo_hooke(0.5)
+        >>> tube = solve(Problem(cell, rubber, held, ("cavity",), moving_plane="x1"), 0.02)
+        >>> found = section_response(tube)
+        >>> print(f"{found.derivatives[1, 1]:.4f} mm/N")  # shift by axial force
+        0.7707 mm/N
     """
 
     tilt: float
@@ -85,6 +96,19 @@ def section_response(solution: Solution, newton: Workspace | None = None) -> Sec
     Raises:
         SolverError: a problem without a moving plane, a solution that is not converged, or a
             tangent that is singular.
+
+    Examples:
+        >>> from solver import AxialForce, Ogden, Problem, Supports, section_response, solve
+        >>> from solver.mesh import block
+        >>> cell, rubber = block((3, 4, 4), (1, 2, 2)), Ogden.neo_hooke(0.5)
+        >>> held = Supports(symmetry={"x0": 0, "y0": 1})
+        >>> def under(force):
+        ...     pull = (AxialForce(force),)
+        ...     problem = Problem(cell, rubber, held, loads=pull, moving_plane="x1")
+        ...     return section_response(solve(problem))
+        >>> behind, here, ahead = map(under, (0.99, 1.0, 1.01))
+        >>> print(f"{here.derivatives[1, 1]:.4f}, {(ahead.shift - behind.shift) / 0.02:.4f} mm/N")
+        0.5320, 0.5320 mm/N
     """
     check_equilibrium(solution, "section_response")
     problem = solution.problem

@@ -63,6 +63,16 @@ def shear_compliance(
     Raises:
         SolverError: another kind of problem, a solution that is not converged, walls that touch
             their images at x = 0, or a tangent that is singular.
+
+    Examples:
+        >>> from solver import Ogden, Problem, Supports, shear_compliance, solve
+        >>> from solver.mesh import block
+        >>> cell = block((0.5, 0.5, 1.0), (4, 1, 4))
+        >>> held = Supports(symmetry={"x0": 0, "y0": 1, "y1": 1})  # a beam in plane strain
+        >>> beam = solve(Problem(cell, Ogden.neo_hooke(1.0), held, moving_plane="x1"))
+        >>> cowper = 0.5 / (20 / 23 * 0.5) - 2 * 0.5**3 / (3 * 4 * 0.5 / 12)  # as the module has it
+        >>> print(f"{shear_compliance(beam):.3f}, {cowper:.3f} mm/N")
+        0.649, 0.650 mm/N
     """
     check_equilibrium(solution, "shear_compliance")
     section = Section.of(solution.problem)
