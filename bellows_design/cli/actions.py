@@ -22,7 +22,7 @@ from bellows_design.cli.surroundings.memory import (
     require_address_space,
 )
 from bellows_design.cli.surroundings.solving import solving, usual_store
-from bellows_design.errors import BellowsError
+from bellows_design.errors import BellowsError, DesignError
 
 if TYPE_CHECKING:
     from bellows_design.analysis.evaluation import Evaluation
