@@ -11,7 +11,8 @@ from bellows_design.analysis.evaluation import Evaluation
 from bellows_design.analysis.models import UNIT_CELL
 from bellows_design.beside import beside
 from bellows_design.deformed.joined.state import ActuatorState
-from bellows_design.deformed.solved import SolvedBodies, same_pressure
+from bellows_design.deformed.pressure_path import same_pressure
+from bellows_design.deformed.solved import SolvedBodies
 from bellows_design.deformed.surface import SurfaceFrames
 from bellows_design.deformed.whole import WholeSurface, whole_of
 from bellows_design.errors import DesignError
@@ -21,26 +22,28 @@ from solver import Solution
 MOST_FRAMES = 101
 
 
-def surface_frames(found: Evaluation, count: int = 11) -> SurfaceFrames:
+def surface_frames(found: Evaluation, count: int = 11, finest: bool = True) -> SurfaceFrames:
     """The surface from rest to the pressure that was reached, at equally spaced pressures.
 
     Equilibria that the evaluation kept are taken, where it was asked for these pressures; else the
-    path is walked once more. Of a cell that is on its finest mesh, from the state that was found
-    downwards, so that the last frame is that of ``deformed_surface``; of half and full models on
-    the coarsest one, whose angle and stress are less accurate (``found.meshes[0]``). The ends stand
-    still where their path ended before that of the cell.
+    path is walked once more, from the state that was found downwards: of a cell and its ends about
+    twice as long as the evaluation took, on the coarsest mesh as long.
 
     Args:
         found: An evaluation.
         count: Of frames; fewer where the path cannot be followed again, and one, at rest, of an
             evaluation that reached no pressure.
+        finest: A cell on its finest mesh: the last frame is then that of ``deformed_surface``. Else
+            on the coarsest one, whose stress is lower (``found.meshes[0]``); the angle is the
+            evaluation's at its pressure in either case. Half and full models are shown on their
+            coarsest mesh, with its angle.
 
     Raises:
         DesignError: A count that is not between 2 and 101.
     """
     if not 2 <= count <= MOST_FRAMES:
         raise DesignError(f"count = {count} frames must lie between 2 and {MOST_FRAMES}.")
-    solved = SolvedBodies.of(found, coarsest=found.model is not UNIT_CELL)
+    solved = SolvedBodies.of(found, coarsest=not finest or found.model is not UNIT_CELL)
     states = _states(solved, np.linspace(0.0, found.pressure_mpa, count)[1:].tolist())
     return _frames(solved, _to_angle(found, solved, states))
 

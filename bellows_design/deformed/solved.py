@@ -11,7 +11,7 @@ import numpy as np
 from bellows_design.analysis.evaluation import Evaluation
 from bellows_design.analysis.models import UNIT_CELL, shortened
 from bellows_design.deformed.joined.state import ActuatorState, BodyState
-from bellows_design.deformed.pressure_path import SAME, WalkedBody
+from bellows_design.deformed.pressure_path import equilibria_at, same_pressure
 from bellows_design.design.design import Design
 from bellows_design.neighbours.record import NeighbourEvaluation
 from solver import Solution
@@ -58,12 +58,12 @@ class SolvedBodies:
 
     def bodies_at(self, pressures: Sequence[float]) -> tuple[Solution, ...]:
         """The body at pressures (MPa), as far as it can be followed to them."""
-        return WalkedBody(self.design.bellows, self.body).at(pressures)
+        return equilibria_at(self.body, pressures)
 
     def ends_at(self, pressures: Sequence[float]) -> tuple[Solution, ...]:
         """The same of the ends."""
         assert self.ends is not None
-        return WalkedBody(self.design_of_ends.bellows, self.ends).at(pressures)
+        return equilibria_at(self.ends, pressures)
 
     def state(self, body: Solution, ends: Solution | None) -> ActuatorState:
         """Both under one pressure, with the angle that they make together."""
@@ -91,11 +91,6 @@ def reached(found: Evaluation) -> ActuatorState:
         return state
     angle = float(np.radians(found.bending_angle_deg))
     return ActuatorState(state.body, state.ends, angle)
-
-
-def same_pressure(one: float, other: float) -> bool:
-    """Whether two pressures are one but for rounding."""
-    return abs(one - other) <= SAME * max(abs(one), abs(other))
 
 
 def anchor_of(found: Found) -> Evaluation:

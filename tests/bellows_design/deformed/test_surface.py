@@ -110,6 +110,14 @@ def test_a_path_is_walked_again_where_nothing_was_kept(name: str, evaluated: Eva
     assert open_edges(frames.triangles) == 0
 
 
+def test_the_coarsest_mesh_is_shown_with_the_angle_found(evaluated: Evaluated) -> None:
+    found = evaluated("three bubbles")
+    coarse, fine = surface_frames(found, 2, finest=False), deformed_surface(found)
+    assert coarse.positions.shape[1] < fine.positions.shape[1]
+    assert coarse.angles_deg[-1] == pytest.approx(found.bending_angle_deg)
+    assert coarse.von_mises[-1].max() < fine.von_mises[-1].max()
+
+
 def test_an_evaluation_that_reached_nothing_is_shown_at_rest(evaluated: Evaluated) -> None:
     from dataclasses import replace
 
