@@ -49,7 +49,7 @@ def _open(values: Values, _: Values, report: Report) -> None:
 
 def _start(design: Design) -> Values:
     from bellows_design import __version__
-    from bellows_design.design.shipped import shipped_designs
+    from bellows_design.design.shipped import load_design, shipped_designs
     from bellows_design.materials.library import material_names
     from printers import available_profiles
 
@@ -57,7 +57,10 @@ def _start(design: Design) -> Values:
         "name": design.name,
         "description": design.description,
         "digest": design.digest,
-        "designs": list(shipped_designs()),
+        "designs": [
+            {"name": name, "description": load_design(name).description}
+            for name in shipped_designs()
+        ],
         "materials": _described(material_names()),
         "printers": list(available_profiles()),
         "parameters": sliders(design),

@@ -69,7 +69,11 @@ function newView() {
   const note = byId("view-note");
   try {
     const viewer = new globalThis.Bellows.Viewer(byId("canvas"), VIEWER);
-    return new View(byId("stage-view"), session, { viewer, unpack: globalThis.Bellows.unpack, note });
+    return new View(byId("stage-view"), session, {
+      viewer,
+      unpack: globalThis.Bellows.unpack,
+      note,
+    });
   } catch (error) {
     setText(note, `There is no 3D view here: ${error.message}`);
     return null;

@@ -142,6 +142,7 @@ def test_pinned_design_is_compared_and_the_section_cuts(browser: Any, address: s
         page.locator("h1").click()
         page.keyboard.press("s")
         assert section.get_attribute("aria-pressed") == "true"
+        page.locator("#blend:not([disabled])").wait_for(timeout=LONG_MS)
         page.locator("#blend").focus()
         page.keyboard.press("Home")
         assert page.locator("#blend-text").inner_text() == "at rest"

@@ -18,8 +18,14 @@ export class Banner {
     this.element.hidden = false;
     this.element.dataset.level = open ? "pass" : "fail";
     if (open) setText(this.element, "Connected again.");
-    else if (failures < GIVE_UP) setText(this.element, "The connection with the studio is lost. Trying again…");
-    else setText(this.element, "The studio does not answer. If it was ended, start it again with “bellows studio” and open the address that it prints; your changes stay here until this page is closed.");
+    else if (failures < GIVE_UP)
+      setText(this.element, "The connection with the studio is lost. Trying again…");
+    else
+      setText(
+        this.element,
+        "The studio does not answer. If it was ended, start it again with “bellows studio” and " +
+          "open the address that it prints; your changes stay here until this page is closed.",
+      );
     this.#wasLost = !open;
     if (open) setTimeout(() => (this.element.hidden = !this.#wasLost), BACK_MS);
   }

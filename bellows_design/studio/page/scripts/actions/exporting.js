@@ -28,7 +28,10 @@ export class Exporting {
     this.bar.removeAttribute("value");
     for (const id of ["run-reasons", "run-files"]) byId(id).replaceChildren();
     delete this.status.dataset.level;
-    setText(this.status, "Checking, solving and writing the files; this takes half a minute or so…");
+    setText(
+      this.status,
+      "Checking, solving and writing the files; this takes half a minute or so…",
+    );
   }
 
   #working({ what, fraction, message }) {
@@ -39,7 +42,11 @@ export class Exporting {
   }
 
   #ran({ approved, reasons, warnings, not_judged: open, files }) {
-    this.#end(approved ? "Approved. The part is ready to be printed." : "Not approved, and so nothing was written:");
+    this.#end(
+      approved
+        ? "Approved. The part is ready to be printed."
+        : "Not approved, and so nothing was written:",
+    );
     this.status.dataset.level = approved ? "pass" : "fail";
     const lines = [reasons, open, warnings].flatMap((each) => each ?? []);
     byId("run-reasons").replaceChildren(...lines.map((line) => element("li", {}, line)));
@@ -55,7 +62,8 @@ export class Exporting {
   }
 
   #connection({ open }) {
-    if (!open && this.#running) this.#end("The connection was lost meanwhile; run again once it is back.");
+    if (!open && this.#running)
+      this.#end("The connection was lost meanwhile; run again once it is back.");
   }
 
   #end(text) {

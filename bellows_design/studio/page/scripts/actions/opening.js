@@ -33,13 +33,23 @@ export class Opening {
   #entry(design) {
     const { name, description = "" } = typeof design === "string" ? { name: design } : design;
     const label = element("strong", {}, readable(name));
-    return element("li", {}, element("button", { type: "button", click: () => this.#session.open(name) }, label, element("span", {}, description)));
+    return element(
+      "li",
+      {},
+      element(
+        "button",
+        { type: "button", click: () => this.#session.open(name) },
+        label,
+        element("span", {}, description),
+      ),
+    );
   }
 
   async #read(file) {
     if (!file) return;
     byId("open-file").value = "";
-    if (file.size > LARGEST_BYTES) return this.#complain(`${file.name} has more than 1 MB and is no design.`);
+    if (file.size > LARGEST_BYTES)
+      return this.#complain(`${file.name} has more than 1 MB and is no design.`);
     this.#session.openText(await file.text());
   }
 

@@ -10,7 +10,8 @@ export class Toolbar {
     byId("undo").addEventListener("click", () => session.undo());
     byId("redo").addEventListener("click", () => session.redo());
     byId("reset").addEventListener("click", () => session.reset());
-    for (const type of ["start", "values", "history", "state"]) session.addEventListener(type, () => this.#show());
+    for (const type of ["start", "values", "history", "state"])
+      session.addEventListener(type, () => this.#show());
     this.#show();
   }
 

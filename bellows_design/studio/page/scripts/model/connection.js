@@ -47,7 +47,8 @@ export class Connection extends EventTarget {
   }
 
   #received(data) {
-    const detail = typeof data === "string" ? { header: JSON.parse(data), payload: null } : split(data);
+    const detail =
+      typeof data === "string" ? { header: JSON.parse(data), payload: null } : split(data);
     this.dispatchEvent(new CustomEvent("message", { detail }));
   }
 

@@ -2,7 +2,10 @@
 
 const LONGEST = 200;
 
-/** Entries `{start, values}`: the opened design and the values; a gesture's later rests replace its first. */
+/**
+ * Entries `{start, values}`: the opened design and the values. A gesture's later rests replace its
+ * first one.
+ */
 export class History {
   #entries = [];
   #place = -1;

@@ -7,14 +7,21 @@ export const REST_MS = 120;
 
 // These speak of one revision only; once the sliders have moved on they say nothing any more.
 const OF_ONE_REVISION = new Set([
-  "problems", "lights", "shape_follows", "answer", "deformed", "sensitivities", "scene", "working",
-  "failed", "ran",
+  "problems",
+  "lights",
+  "shape_follows",
+  "answer",
+  "deformed",
+  "sensitivities",
+  "scene",
+  "working",
+  "failed",
+  "ran",
 ]);
 
-
 /**
- * States of the figures: "waiting" (no connection yet), "moving", "computing", "preview", "refined",
- * "invalid", "failed".
+ * States of the figures: "waiting" (no connection yet), "moving", "computing", "preview",
+ * "refined", "invalid", "failed".
  *
  * Events: `start` (a design was opened), `values` (they changed), `state`, `rest`, `history`,
  * `connection` with detail `{open, failures}`, and every message of the server under its type, with
@@ -82,6 +89,7 @@ export class Session extends EventTarget {
   moveAll(values) {
     if (same(values, this.values)) return;
     this.values = values;
+    if (this.#opening?.message.text === this.start.toml) this.#opening.values = values;
     this.revision += 1;
     this.#forget();
     this.#setState("moving");
@@ -117,12 +125,14 @@ export class Session extends EventTarget {
   }
 
   redo() {
+    this.settle();
     this.#go(this.#history.redo());
   }
 
   /** A design of before, such as a pinned one, as a new step. */
   takeUp({ start, values }) {
-    if (start.toml !== this.start.toml) return this.#openBy({ type: "open_toml", text: start.toml }, values);
+    if (start.toml !== this.start.toml)
+      return this.#openBy({ type: "open_toml", text: start.toml }, values);
     this.moveAll(values);
     this.#restNow();
   }

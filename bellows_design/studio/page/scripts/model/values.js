@@ -24,7 +24,10 @@ export function same(one, other) {
   if (one === other) return true;
   if (!isTable(one) || !isTable(other)) return false;
   const names = Object.keys(one);
-  return names.length === Object.keys(other).length && names.every((name) => same(one[name], other[name]));
+  return (
+    names.length === Object.keys(other).length &&
+    names.every((name) => same(one[name], other[name]))
+  );
 }
 
 /** The value of a dotted name; those of an absent indent are null. */

@@ -6,7 +6,9 @@ export class Choice {
   /** `choices`: names, or `{name, description}`. */
   constructor(session, name, label, choices) {
     this.name = name;
-    this.choices = choices.map((each) => (typeof each === "string" ? { name: each, description: "" } : each));
+    this.choices = choices.map((each) =>
+      typeof each === "string" ? { name: each, description: "" } : each,
+    );
     const id = `choice-${name}`;
     this.select = element("select", {
       id,
@@ -27,7 +29,9 @@ export class Choice {
 
   show(values, opened) {
     const names = this.choices.map((each) => each.name);
-    const own = [opened[this.name], values[this.name]].filter((name) => name && !names.includes(name));
+    const own = [opened[this.name], values[this.name]].filter(
+      (name) => name && !names.includes(name),
+    );
     const all = [...new Set([...own, ...names])];
     if (this.select.options.length !== all.length) {
       this.select.replaceChildren(...all.map((name) => option(name, readable(name))));

@@ -15,7 +15,11 @@ export class IndentControl {
   constructor(session, rows) {
     this.#session = session;
     this.#rows = rows;
-    this.box = element("input", { type: "checkbox", id: "indent-on", change: () => this.#switch() });
+    this.box = element("input", {
+      type: "checkbox",
+      id: "indent-on",
+      change: () => this.#switch(),
+    });
     this.side = this.#select("indent-side", ["outside", "inside"], () => this.#sideChosen());
     this.shape = this.#select("indent-shape", ["arc", "rectangular"], () => this.#shapeChosen());
     this.details = element(
@@ -29,7 +33,12 @@ export class IndentControl {
       ),
       ...rows.map((row) => row.row),
     );
-    const label = element("label", { class: "check", for: "indent-on" }, this.box, " Indent in the bottom wall");
+    const label = element(
+      "label",
+      { class: "check", for: "indent-on" },
+      this.box,
+      " Indent in the bottom wall",
+    );
     this.element = element("div", {}, label, this.details);
   }
 
@@ -42,7 +51,8 @@ export class IndentControl {
     this.side.value = indent.side;
     this.shape.value = indent.shape;
     this.shape.querySelector("[value=arc]").disabled = indent.side === "inside";
-    for (const row of this.#rows) row.row.hidden = row.name === "indent.fillet" && indent.shape === "arc";
+    for (const row of this.#rows)
+      row.row.hidden = row.name === "indent.fillet" && indent.shape === "arc";
   }
 
   #select(id, names, changed) {
@@ -60,14 +70,24 @@ export class IndentControl {
     const wall = Math.min(values.bubble_thickness, values.tendon_thickness);
     const width = Math.min(FULL_WIDTH, values.chamber_length + 2 * values.bubble_thickness);
     const depth = Math.min(FULL_DEPTH, width / 2, wall - LEAST_WALL);
-    return { side: "outside", shape: "arc", depth: Math.max(0.05, onGrid(depth, 0.05)), width, fillet: 0 };
+    return {
+      side: "outside",
+      shape: "arc",
+      depth: Math.max(0.05, onGrid(depth, 0.05)),
+      width,
+      fillet: 0,
+    };
   }
 
   /** An inside indent is rectangular and lies within the chamber. */
   #sideChosen() {
     const { indent, chamber_length: room } = this.#session.values;
     const inside = { shape: "rectangular", width: Math.min(indent.width, room) };
-    this.#set({ ...indent, side: this.side.value, ...(this.side.value === "inside" ? inside : {}) });
+    this.#set({
+      ...indent,
+      side: this.side.value,
+      ...(this.side.value === "inside" ? inside : {}),
+    });
   }
 
   /** An arc has no corners to round. */

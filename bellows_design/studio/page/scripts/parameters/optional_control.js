@@ -15,7 +15,9 @@ export function optionalControl(session, row) {
     id,
     change: () => session.move(row.name, box.checked ? null : row.value),
   });
-  row.range.before(element("label", { class: "check", for: id }, box, LABELS[row.name] ?? "automatic"));
+  row.range.before(
+    element("label", { class: "check", for: id }, box, LABELS[row.name] ?? "automatic"),
+  );
   return {
     show() {
       box.checked = session.valueOf(row.name) === null;

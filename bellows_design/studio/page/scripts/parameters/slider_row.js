@@ -64,7 +64,8 @@ export class SliderRow {
     setText(this.problem, text);
     this.problem.hidden = !text;
     this.row.classList.toggle("has-problem", Boolean(text));
-    for (const control of [this.range, this.field]) control.setAttribute("aria-invalid", String(Boolean(text)));
+    for (const control of [this.range, this.field])
+      control.setAttribute("aria-invalid", String(Boolean(text)));
   }
 
   /** Shows what a small step does; null where that is not known. */
@@ -78,7 +79,11 @@ export class SliderRow {
     const { parameter, id } = this;
     this.field = this.#numberField();
     this.range = this.#slider();
-    this.back = element("button", { type: "button", class: "back", hidden: true, click: () => this.#set(this.#opened) }, "↺");
+    this.back = element(
+      "button",
+      { type: "button", class: "back", hidden: true, click: () => this.#set(this.#opened) },
+      "↺",
+    );
     this.arrow = element("span", { class: "sensitivity", id: `${id}-sensitivity` });
     this.meaning = element("p", { class: "meaning", id: `${id}-meaning` }, parameter.meaning ?? "");
     this.problem = element("p", { class: "problem", id: `${id}-problem`, hidden: true });
@@ -90,7 +95,12 @@ export class SliderRow {
         { class: "slider-head" },
         element("label", { for: `${id}-range` }, parameter.label),
         this.back,
-        element("span", { class: "entry" }, this.field, element("span", { class: "unit" }, parameter.unit)),
+        element(
+          "span",
+          { class: "entry" },
+          this.field,
+          element("span", { class: "unit" }, parameter.unit),
+        ),
       ),
       this.range,
       this.arrow,
@@ -119,7 +129,7 @@ export class SliderRow {
       autocomplete: "off",
       spellcheck: "false",
       id: `${this.id}-field`,
-      "aria-label": `${this.parameter.label}${this.parameter.unit ? ` in ${this.parameter.unit}` : ""}`,
+      "aria-label": [this.parameter.label, this.parameter.unit].filter(Boolean).join(" in "),
       "aria-describedby": this.#descriptions(),
       input: () => (this.field.dataset.typing = "yes"),
       change: () => this.#typed(),
@@ -158,12 +168,21 @@ export class SliderRow {
   #stepBy(steps) {
     const { least, most } = this.parameter;
     const from = this.#value ?? least;
-    this.#set(Math.min(most, Math.max(least, Number((from + steps * this.#window.step).toFixed(6)))));
+    this.#set(
+      Math.min(most, Math.max(least, Number((from + steps * this.#window.step).toFixed(6)))),
+    );
   }
 
   /** The slider's own keys would leave the grid, as it has none of its own. */
   #pageKeys(event) {
-    const steps = { ArrowUp: 1, ArrowRight: 1, ArrowDown: -1, ArrowLeft: -1, PageUp: 10, PageDown: -10 }[event.key];
+    const steps = {
+      ArrowUp: 1,
+      ArrowRight: 1,
+      ArrowDown: -1,
+      ArrowLeft: -1,
+      PageUp: 10,
+      PageDown: -10,
+    }[event.key];
     if (steps === undefined || event.ctrlKey || event.metaKey || event.altKey) return;
     event.preventDefault();
     this.#stepBy(event.shiftKey ? 10 * steps : steps);
@@ -190,8 +209,10 @@ export class SliderRow {
     const { least, most, unit } = this.parameter;
     const value = parsed(this.field.value, unit);
     const bounds = `${shown(least)} to ${shown(most)} ${unit}`.trim();
-    if (Number.isNaN(value)) return this.showProblem(`“${this.field.value}” is no number; ${bounds} are possible.`);
-    if (value < least || value > most) return this.showProblem(`${shown(value)} ${unit} is outside ${bounds}.`);
+    if (Number.isNaN(value))
+      return this.showProblem(`“${this.field.value}” is no number; ${bounds} are possible.`);
+    if (value < least || value > most)
+      return this.showProblem(`${shown(value)} ${unit} is outside ${bounds}.`);
     this.#endTyping(value);
     this.showProblem("");
     this.#set(this.parameter.whole ? Math.round(value) : value);
@@ -203,9 +224,12 @@ export class SliderRow {
   }
 }
 
+// The same for all of a unit, so that they can be compared.
+const STEPS = { mm: 0.1, MPa: 0.01 };
+
 /** "↑ +0.1 mm: +4°, +0.1 MPa" */
 export function sensitivityText(parameter, { angle_per_unit: angle, stress_per_unit: stress }) {
-  const step = parameter.unit === "MPa" ? 0.01 : parameter.step || 0.1;
+  const step = STEPS[parameter.unit] ?? 1;
   const arrow = angle > 0 ? "↑" : angle < 0 ? "↓" : "→";
   const parts = [`${signed(angle * step)}°`];
   if (stress !== null && stress !== undefined) parts.push(`${signed(stress * step)} MPa`);

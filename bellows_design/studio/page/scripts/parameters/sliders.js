@@ -36,7 +36,9 @@ export class Sliders {
     session.addEventListener("values", () => this.#show());
     session.addEventListener("state", () => this.#dimSensitivities());
     session.addEventListener("problems", (event) => this.#showProblems(event.detail.header));
-    session.addEventListener("sensitivities", (event) => this.#showSensitivities(event.detail.header));
+    session.addEventListener("sensitivities", (event) =>
+      this.#showSensitivities(event.detail.header),
+    );
   }
 
   #rebuild() {
@@ -48,7 +50,10 @@ export class Sliders {
     for (const each of parameters) this.#rows.set(each.name, this.#newRow(each));
     const names = [...new Set(parameters.map((each) => each.group))];
     const groups = names.map((name) => this.#group(name, this.#groupBody(name, parameters)));
-    this.#host.replaceChildren(...groups, this.#group("Material and printer", this.#materialBody()));
+    this.#host.replaceChildren(
+      ...groups,
+      this.#group("Material and printer", this.#materialBody()),
+    );
   }
 
   #newRow(parameter) {
@@ -65,13 +70,20 @@ export class Sliders {
     return element(
       "details",
       { class: "group", "data-group": name, open: !FOLDED.has(name) },
-      element("summary", {}, element("h3", {}, name), hint ? element("span", { class: "hint" }, hint) : null),
+      element(
+        "summary",
+        {},
+        element("h3", {}, name),
+        hint ? element("span", { class: "hint" }, hint) : null,
+      ),
       element("div", { class: "group-body", role: "group", "aria-label": name }, ...body),
     );
   }
 
   #groupBody(name, parameters) {
-    const rows = parameters.filter((each) => each.group === name).map((each) => this.#rows.get(each.name));
+    const rows = parameters
+      .filter((each) => each.group === name)
+      .map((each) => this.#rows.get(each.name));
     if (name === "Indent") return this.#indentBody(rows);
     return rows.map((row) => row.row);
   }
@@ -139,5 +151,7 @@ function grouped(problems) {
 
 function summaryText(count, others) {
   const start = "These values do not go together; the last valid shape stays in view.";
-  return others.length ? `${start} ${others.join(" ")}` : `${start} ${count === 1 ? "The reason stands" : "The reasons stand"} at the parameter concerned.`;
+  if (others.length) return `${start} ${others.join(" ")}`;
+  const reasons = count === 1 ? "The reason stands" : "The reasons stand";
+  return `${start} ${reasons} at the parameter concerned.`;
 }

@@ -3,7 +3,7 @@
 /**
  * A new element.
  * @param {string} tag
- * @param {Object<string, any>} attributes - `class`, `aria-…`, `data-…` and the like; listeners as
+ * @param {Object<string, any>} attributes - `class`, `aria-…` and the like; listeners as
  *   functions under the event's name; `false`, `null` and `undefined` leave an attribute out.
  * @param {...(Node|string|null)} children
  */
@@ -12,7 +12,8 @@ export function element(tag, attributes = {}, ...children) {
   for (const [name, value] of Object.entries(attributes)) {
     if (typeof value === "function") made.addEventListener(name, value);
     else if (value === true) made.setAttribute(name, "");
-    else if (value !== false && value !== null && value !== undefined) made.setAttribute(name, value);
+    else if (value !== false && value !== null && value !== undefined)
+      made.setAttribute(name, value);
   }
   made.append(...children.filter((child) => child !== null && child !== undefined));
   return made;

@@ -43,7 +43,8 @@ export class Compare {
     const pin = this.#pin;
     if (!pin || pin.revision !== this.#session.revision) return;
     const { snapshot } = this.#view;
-    const more = this.#session.answer !== pin.answer || (snapshot.deformed && !pin.snapshot.deformed);
+    const more =
+      this.#session.answer !== pin.answer || (snapshot.deformed && !pin.snapshot.deformed);
     if (!more) return;
     this.#pin = { ...pin, answer: this.#session.answer ?? pin.answer, snapshot };
     this.#apply();
@@ -74,7 +75,9 @@ export class Compare {
     if (!this.#pin) return;
     this.#showGhost();
     const { answer } = this.#pin;
-    const figures = answer ? `${fixed(answer.bending_angle_deg, 1)}°, ${fixed(answer.max_von_mises_mpa, 2)} MPa` : "not computed";
+    const figures = answer
+      ? `${fixed(answer.bending_angle_deg, 1)}°, ${fixed(answer.max_von_mises_mpa, 2)} MPa`
+      : "not computed";
     setText(this.text, this.#isCurrent() ? `${figures}; change something to compare` : figures);
     byId("pinned-differences").replaceChildren(...this.#differences());
   }
@@ -91,5 +94,7 @@ export class Compare {
 function text(value) {
   if (value === null || value === undefined) return "none";
   if (typeof value === "number") return shown(value);
-  return typeof value === "string" ? readable(value) : `${value.side} ${value.shape}, ${shown(value.depth)} × ${shown(value.width)} mm`;
+  return typeof value === "string"
+    ? readable(value)
+    : `${value.side} ${value.shape}, ${shown(value.depth)} × ${shown(value.width)} mm`;
 }

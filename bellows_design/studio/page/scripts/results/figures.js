@@ -1,7 +1,7 @@
 // The large figures: angle, stress against its limit, air; and how current they are.
 
 import { element, setText } from "../parts/elements.js";
-import { fixed, shown, signed } from "../model/numbers.js";
+import { fixed, shown, signed, withUnit } from "../model/numbers.js";
 
 const BADGES = {
   waiting: "waiting for the studio",
@@ -97,7 +97,8 @@ export class Figures {
     dataset.deg = String(answer.bending_angle_deg);
     dataset.revision = String(answer.revision);
     dataset.state = current ? answer.state : "old";
-    for (const each of [this.angle, this.stress, this.air]) each.note(current ? "" : " – out of date");
+    for (const each of [this.angle, this.stress, this.air])
+      each.note(current ? "" : " – out of date");
   }
 
   #working({ what, fraction, message }) {
@@ -106,13 +107,17 @@ export class Figures {
     if (what === "preview" && state === "computing") setText(this.badge, `computing…${share}`);
     if (what === "preview" && message && state === "computing") setText(this.how, message);
     if (what === "refine" && state === "computing") setText(this.badge, `refining…${share}`);
-    if (what === "refine" && state === "preview") setText(this.badge, `preview, refining…${share}`);
+    if (what !== "refine" || state !== "preview") return;
+    setText(this.badge, `preview, refining…${share}`);
   }
 
   #failed({ what, message }) {
     if (what !== "refine") return;
     if (this.#session.state === "failed") setText(this.how, message);
-    else setText(this.how, `${sentence(this.#shown)} It was not refined: ${message}`);
+    else {
+      setText(this.badge, BADGES[this.#session.state]);
+      setText(this.how, `${sentence(this.#shown)} It was not refined: ${message}`);
+    }
   }
 }
 
@@ -152,7 +157,13 @@ class StressBar {
     this.band = element("div", { class: "bar-band" });
     this.limit = element("div", { class: "bar-limit" });
     this.text = element("span", { class: "bar-text" });
-    this.track = element("div", { class: "bar-track", "aria-hidden": "true" }, this.fill, this.band, this.limit);
+    this.track = element(
+      "div",
+      { class: "bar-track", "aria-hidden": "true" },
+      this.fill,
+      this.band,
+      this.limit,
+    );
     this.element = element("div", { class: "stress-bar" }, this.track, this.text);
   }
 
@@ -166,8 +177,12 @@ class StressBar {
     this.limit.style.left = share(limit);
     this.band.style.left = share(stress - error);
     this.band.style.width = `calc(${share(stress + error)} - ${share(stress - error)})`;
-    this.element.dataset.level = stress + error <= limit ? "good" : stress <= limit ? "near" : "over";
-    setText(this.text, `${Math.round((100 * stress) / limit)} % of the limit, ${shown(limit, 3)} MPa`);
+    this.element.dataset.level =
+      stress + error <= limit ? "good" : stress <= limit ? "near" : "over";
+    setText(
+      this.text,
+      `${Math.round((100 * stress) / limit)} % of the limit, ${shown(limit, 3)} MPa`,
+    );
   }
 }
 
@@ -184,12 +199,13 @@ function margin(value, percent, decimals) {
 
 function difference(value, pinned, unit) {
   if (pinned === null || pinned === undefined || Number.isNaN(pinned)) return "";
-  return `${signed(value - pinned, 3)}${unit === "°" ? "°" : ` ${unit}`} against the pinned design`;
+  return `${withUnit(signed(value - pinned, 3), unit)} against the pinned design`;
 }
 
 function spoken(answer) {
   const angle = `${fixed(answer.bending_angle_deg, 1)} degrees`;
-  return `${answer.state}: bending angle ${angle}, highest stress ${fixed(answer.max_von_mises_mpa, 2)} megapascals`;
+  const stress = `${fixed(answer.max_von_mises_mpa, 2)} megapascals`;
+  return `${answer.state}: bending angle ${angle}, highest stress ${stress}`;
 }
 
 function explanation(state, problems, shownAnswer, connected) {

@@ -3,10 +3,14 @@
 import { element, setText } from "../parts/elements.js";
 import { readable } from "../parameters/choice.js";
 
-const ORDER = ["fail", "warn", "info", "pass"];
+const ORDER = ["fail", "warn"];
+const FOLDED = new Set(["info", "pass"]);
 const SIGNS = { fail: "✕", warn: "!", info: "i", pass: "✓" };
+const NAMES = { pass: ["rule kept", "rules kept"], info: ["note", "notes"] };
+
 const SENTENCES = {
-  pass: (preview) => (preview ? "Holds, as far as the preview can say." : "Fit to be printed and to hold."),
+  pass: (preview) =>
+    preview ? "Holds, as far as the preview can say." : "Fit to be printed and to hold.",
   fail: (preview) => (preview ? "Would not be approved, by the preview:" : "Not approved:"),
   undecided: () => "Too close to a limit to be decided at this accuracy:",
   unknown: () => "Not yet known.",
@@ -29,12 +33,18 @@ export class Lights {
     this.lights = element("div", { class: "lights", id: "lights" });
     this.source = element("p", { class: "how", id: "lights-source" });
     host.append(
-      element("h2", {}, "Verdict"), this.verdict, this.reasons,
-      element("h2", {}, "Can it be printed?"), this.source, this.lights,
+      element("h2", {}, "Verdict"),
+      this.verdict,
+      this.reasons,
+      element("h2", {}, "Can it be printed?"),
+      this.source,
+      this.lights,
     );
     session.addEventListener("start", () => this.#sets.clear());
     session.addEventListener("lights", (event) => this.#take(event.detail.header));
     session.addEventListener("state", () => this.#show());
+    session.addEventListener("working", (event) => this.#part(event.detail.header, "measuring…"));
+    session.addEventListener("failed", (event) => this.#part(event.detail.header, "not measured:"));
     this.#show();
   }
 
@@ -42,9 +52,17 @@ export class Lights {
     if (source === "declared") this.#sets.delete("measured");
     this.#sets.set(source, { lights, revision });
     const { lights: found } = this.#current();
-    const open = this.lights.querySelector("details")?.open ?? false;
-    this.lights.replaceChildren(...sorted(found), passed(found, open));
+    const isOpen = (verdict) =>
+      this.lights.querySelector(`details[data-verdict="${verdict}"]`)?.open ?? false;
+    const notes = [...FOLDED].map((verdict) => folded(found, verdict, isOpen(verdict)));
+    this.lights.replaceChildren(...sorted(found), ...notes);
     this.#show();
+  }
+
+  /** How far the measured rules are, while the declared ones are shown. */
+  #part({ what, message }, text) {
+    if (what !== "part" || this.#sets.has("measured")) return;
+    setText(this.source, `by the declared numbers; the part itself: ${text} ${message ?? ""}`);
   }
 
   #current() {
@@ -66,7 +84,10 @@ export class Lights {
     const others = reasons.filter((reason) => !rules.has(reason));
     const count = reasons.length - others.length;
     if (!count) return reasons;
-    return [`It cannot be printed as it is: ${count} ${count === 1 ? "finding" : "findings"} below.`, ...others];
+    return [
+      `It cannot be printed as it is: ${count} ${count === 1 ? "finding" : "findings"} below.`,
+      ...others,
+    ];
   }
 
   #showVerdict() {
@@ -74,36 +95,46 @@ export class Lights {
     const { level, text, reasons } = verdictOf(answer, state, problems);
     this.verdict.dataset.level = level;
     setText(this.verdict, text);
-    this.reasons.replaceChildren(...this.#withoutRules(reasons).map((reason) => element("li", {}, reason)));
+    this.reasons.replaceChildren(
+      ...this.#withoutRules(reasons).map((reason) => element("li", {}, reason)),
+    );
   }
 }
 
 function verdictOf(answer, state, problems) {
   if (state === "invalid") {
-    return { level: "fail", text: "No valid design.", reasons: problems.map((each) => each.message) };
+    return {
+      level: "fail",
+      text: "No valid design.",
+      reasons: problems.map((each) => each.message),
+    };
   }
   if (!answer) return { level: "unknown", text: "Not yet known.", reasons: [] };
-  const reasons = [...(answer.reasons ?? []), ...(answer.warnings ?? []).map((each) => `Note: ${each}`)];
+  const reasons = [
+    ...(answer.reasons ?? []),
+    ...(answer.warnings ?? []).map((each) => `Note: ${each}`),
+  ];
   const level = answer.verdict in SENTENCES ? answer.verdict : "unknown";
   return { level, text: SENTENCES[level](answer.state === "preview"), reasons };
 }
 
 function sorted(lights) {
-  const shown = lights.filter((light) => light.verdict !== "pass");
+  const shown = lights.filter((light) => !FOLDED.has(light.verdict));
   shown.sort((one, other) => ORDER.indexOf(one.verdict) - ORDER.indexOf(other.verdict));
   return shown.map(row);
 }
 
-/** The rules that are kept, folded away. */
-function passed(lights, open) {
-  const kept = lights.filter((light) => light.verdict === "pass");
-  if (!kept.length) return "";
-  const rules = new Set(kept.map((light) => light.rule)).size;
+/** Rules that are kept, or notes, folded away. */
+function folded(lights, verdict, isOpen) {
+  const found = lights.filter((light) => light.verdict === verdict);
+  if (!found.length) return "";
+  const count = new Set(found.map((light) => light.rule)).size;
+  const [one, more] = NAMES[verdict];
   return element(
     "details",
-    { class: "passed", open },
-    element("summary", {}, sign("pass"), `${rules} ${rules === 1 ? "rule" : "rules"} kept`),
-    ...kept.map(row),
+    { class: "folded", "data-verdict": verdict, open: isOpen },
+    element("summary", {}, sign(verdict), `${count} ${count === 1 ? one : more}`),
+    ...found.map(row),
   );
 }
 
@@ -119,5 +150,10 @@ function row(light) {
 
 function sign(verdict) {
   const word = element("span", { class: "for-readers" }, WORDS[verdict] ?? verdict);
-  return element("span", { class: "sign", "data-verdict": verdict }, element("span", { "aria-hidden": "true" }, SIGNS[verdict] ?? "?"), word);
+  return element(
+    "span",
+    { class: "sign", "data-verdict": verdict },
+    element("span", { "aria-hidden": "true" }, SIGNS[verdict] ?? "?"),
+    word,
+  );
 }

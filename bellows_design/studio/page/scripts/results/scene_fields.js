@@ -1,6 +1,11 @@
 // The keys of the scenes that the page offers, as docs/design-file.md has them.
 
-const GRAVITY = { name: "gravity", label: "Gravity", choices: ["none", "down", "up", "forward", "backward"], value: "none" };
+const GRAVITY = {
+  name: "gravity",
+  label: "Gravity",
+  choices: ["none", "down", "up", "forward", "backward"],
+  value: "none",
+};
 const SIZES = {
   distance: { label: "Distance", unit: "mm", least: 0, most: 500 },
   friction: { label: "Friction", unit: "", least: 0, most: 3 },
@@ -17,7 +22,12 @@ export const SCENES = {
     label: "Blocked",
     meaning: "The tip presses on a load cell or a wall, or is held: how strong is it?",
     fields: [
-      { name: "support", label: "What keeps the tip", choices: ["load_cell", "wall", "held"], value: "load_cell" },
+      {
+        name: "support",
+        label: "What keeps the tip",
+        choices: ["load_cell", "wall", "held"],
+        value: "load_cell",
+      },
       { name: "distance", ...SIZES.distance, value: 0, of: ["load_cell", "wall"] },
       { name: "friction", ...SIZES.friction, value: 0, of: ["wall"] },
     ],
@@ -27,12 +37,24 @@ export const SCENES = {
     meaning: "Two or three equal fingers close on an object: do they hold it?",
     fields: [
       { name: "fingers", label: "Fingers", choices: ["2", "3"], value: "2", number: true },
-      { name: "object", label: "Object", choices: ["cylinder", "sphere", "box"], value: "cylinder" },
+      {
+        name: "object",
+        label: "Object",
+        choices: ["cylinder", "sphere", "box"],
+        value: "cylinder",
+      },
       { name: "size", label: "Size", unit: "mm", least: 1, most: 500, value: 30 },
       { name: "mass_g", label: "Mass", unit: "g", least: 0.1, most: 10000, value: 20 },
       { name: "friction", ...SIZES.friction, value: 0.5 },
       { name: "distance", ...SIZES.distance, least: 0.5, value: 16 },
-      { name: "place", label: "Place along the finger", unit: "mm", least: 0, most: 1000, value: 35 },
+      {
+        name: "place",
+        label: "Place along the finger",
+        unit: "mm",
+        least: 0,
+        most: 1000,
+        value: 35,
+      },
     ],
   },
 };

@@ -16,7 +16,9 @@ export class Scenes {
     this.#session = session;
     this.button = byId("scene-run");
     this.status = byId("scene-status");
-    byId("scene-kinds").append(...Object.entries(SCENES).map(([kind, scene]) => this.#radio(kind, scene)));
+    byId("scene-kinds").append(
+      ...Object.entries(SCENES).map(([kind, scene]) => this.#radio(kind, scene)),
+    );
     byId("scene-form").addEventListener("submit", (event) => this.#ask(event));
     session.addEventListener("scene", (event) => this.#take(event.detail.header));
     session.addEventListener("working", (event) => this.#working(event.detail.header));
@@ -26,7 +28,13 @@ export class Scenes {
   }
 
   #radio(kind, scene) {
-    const box = element("input", { type: "radio", name: "scene", value: kind, id: `scene-${kind}`, change: () => this.#choose(kind) });
+    const box = element("input", {
+      type: "radio",
+      name: "scene",
+      value: kind,
+      id: `scene-${kind}`,
+      change: () => this.#choose(kind),
+    });
     box.checked = kind === this.#kind;
     return element("label", { for: `scene-${kind}` }, box, element("span", {}, scene.label));
   }
@@ -42,11 +50,26 @@ export class Scenes {
   #row(field) {
     const id = `scene-field-${field.name}`;
     const input = field.choices
-      ? element("select", { id, change: () => this.#showNeeded() }, ...field.choices.map((name) => option(name, readable(name), name === field.value)))
-      : element("input", { id, type: "text", inputmode: "decimal", value: shown(field.value), autocomplete: "off" });
+      ? element(
+          "select",
+          { id, change: () => this.#showNeeded() },
+          ...field.choices.map((name) => option(name, readable(name), name === field.value)),
+        )
+      : element("input", {
+          id,
+          type: "text",
+          inputmode: "decimal",
+          value: shown(field.value),
+          autocomplete: "off",
+        });
     this.#inputs.set(field.name, input);
     const unit = field.unit ? element("span", { class: "unit" }, field.unit) : null;
-    return element("div", { class: "scene-field", "data-field": field.name }, element("label", { for: id }, field.label), element("span", { class: "entry" }, input, unit));
+    return element(
+      "div",
+      { class: "scene-field", "data-field": field.name },
+      element("label", { for: id }, field.label),
+      element("span", { class: "entry" }, input, unit),
+    );
   }
 
   /** Keys that the chosen support does not know are hidden. */
@@ -62,8 +85,13 @@ export class Scenes {
     event.preventDefault();
     const keys = keysOf(this.#kind, (field) => this.#read(field));
     const wrong = SCENES[this.#kind].fields.find((field) => Number.isNaN(keys[field.name]));
-    if (wrong) return setText(this.status, `${wrong.label} must be a number from ${wrong.least} to ${wrong.most} ${wrong.unit}.`);
-    if (!this.#session.ask({ type: "scene", scene: this.#kind, ...keys })) return setText(this.status, "The studio is not connected.");
+    if (wrong)
+      return setText(
+        this.status,
+        `${wrong.label} must be a number from ${wrong.least} to ${wrong.most} ${wrong.unit}.`,
+      );
+    if (!this.#session.ask({ type: "scene", scene: this.#kind, ...keys }))
+      return setText(this.status, "The studio is not connected.");
     this.#asked = this.#session.revision;
     this.button.disabled = true;
     setText(this.status, "Computing…");
@@ -90,7 +118,8 @@ export class Scenes {
 
   #working({ what, fraction }) {
     if (what !== "scene") return;
-    const share = fraction === null || fraction === undefined ? "" : ` ${Math.round(100 * fraction)} %`;
+    const share =
+      fraction === null || fraction === undefined ? "" : ` ${Math.round(100 * fraction)} %`;
     setText(this.status, `Computing…${share}`);
   }
 
@@ -116,6 +145,11 @@ function rows(figures) {
   return figures.map(({ label, value, unit, error_percent: error }) => {
     const number = typeof value === "number" ? shown(value, 3) : String(value ?? "–");
     const band = error === null || error === undefined ? "" : ` ± ${shown(error, 2)} %`;
-    return element("div", { class: "scene-figure" }, element("dt", {}, label), element("dd", {}, `${number} ${unit ?? ""}${band}`));
+    return element(
+      "div",
+      { class: "scene-figure" },
+      element("dt", {}, label),
+      element("dd", {}, `${number} ${unit ?? ""}${band}`),
+    );
   });
 }

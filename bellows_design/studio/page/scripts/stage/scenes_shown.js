@@ -27,6 +27,7 @@ export function firstField(scene) {
 export function differsMuch(box, other) {
   if (!other) return true;
   const size = Math.hypot(...box.high.map((high, axis) => high - box.low[axis]));
-  const off = (bound) => box[bound].some((value, axis) => Math.abs(value - other[bound][axis]) > 0.12 * size);
+  const off = (bound) =>
+    box[bound].some((value, axis) => Math.abs(value - other[bound][axis]) > 0.12 * size);
   return off("low") || off("high");
 }

@@ -6,7 +6,8 @@ import { differsMuch, firstField, withGhost } from "./scenes_shown.js";
 const INFLATING_MS = 300;
 
 /**
- * Shows the session's shapes with `viewer`, a `Bellows.Viewer`; `unpack` makes a scene of a message.
+ * Shows the session's shapes with `viewer`, a `Bellows.Viewer`; `unpack` makes a scene of a
+ * message's payload.
  *
  * Event: `scene`, when another scene or another share of the pressure is shown.
  */
@@ -95,11 +96,17 @@ export class View extends EventTarget {
     const ghost = this.#ghost && (this.#ghost[kind] ?? this.#ghost.rest);
     this.#viewer.show(withGhost(scene, ghost), { keepView: true });
     const field = this.#fields[kind];
-    this.#viewer.setField(field === undefined ? firstField(scene) : field);
+    this.#viewer.setField(field === undefined ? firstField(scene) : field, this.#scale(kind));
     if (kind === "deformed") this.#viewer.setFrame(this.blend);
     this.#fit();
     this.#showState();
     this.dispatchEvent(new CustomEvent("scene"));
+  }
+
+  /** Stress is coloured from zero to its limit, so that designs can be compared by their colours. */
+  #scale(kind) {
+    const limit = this.#session.answer?.stress_limit_mpa;
+    return kind === "deformed" && limit ? { low: 0, high: limit, limit } : {};
   }
 
   /** Each of both shapes keeps the colours that were chosen for it in the viewer's own bar. */
@@ -136,7 +143,10 @@ export class View extends EventTarget {
     const { state } = this.#session;
     this.#host.classList.toggle("dimmed", state === "invalid");
     const follows = this.mode === "pressure" && !this.hasDeformed && this.#shown;
-    const texts = { invalid: "the last valid shape", failed: "at rest: no deformed shape of this design is known" };
+    const texts = {
+      invalid: "the last valid shape",
+      failed: "at rest: no deformed shape of this design is known",
+    };
     setText(this.#note, texts[state] ?? (follows ? "at rest; the deformed shape follows" : ""));
   }
 }
