@@ -91,9 +91,9 @@ class Session:
         if revision not in self._values:
             raise DesignError("this design is no more known: save it from the page again.")
         found: list[Event] = []
-        content = {"base": self._base, "values": self._values[revision]}
-        job = Job(self.number, "toml", "toml", content, lambda event, _: found.append(event))
-        outcome, why = await self._lanes.quick.submit(job).outcome
+        topic, content = f"toml {next(_numbers)}", self._design(revision)
+        job = Job(self.number, topic, "toml", content, lambda event, _: found.append(event))
+        outcome, why = await _ended(self._lanes.quick.submit(job))
         if not found:
             raise DesignError(why or outcome)
         return found[0]
@@ -130,20 +130,19 @@ class Session:
     async def _follow_up(self) -> None:
         """All that follows once the sliders rest, as long as the design stays."""
         if self._changing is not None:
-            await self._changing.outcome
+            outcome, why = await _ended(self._changing)
+            if outcome in ("failed", "crashed"):
+                self.fail("change", why)
         if not self._valid:
             return
-        outcome, why = await self._submit(self._lanes.preview, "preview", "preview", {}).outcome
+        outcome, why = await _ended(self._submit(self._lanes.preview, "preview", "preview", {}))
         if outcome in ("failed", "crashed"):
             self._send("working", self._revision, what="preview", message=why, fraction=None)
         self._lanes.warm()
         for stage in STAGES:
-            job = self._submit(self._lanes.background, stage, stage, {})
-            outcome, why = await job.outcome
+            outcome, why = await _ended(self._submit(self._lanes.background, stage, stage, {}))
             if outcome in ("failed", "crashed"):
                 self.fail(stage, why)
-            elif stage == "refine":
-                self._lanes.take_anchor(job.content, self._heard_of_cells)
 
     def _ask(self, what: str, content: Mapping[str, Any]) -> None:
         job = self._submit(self._lanes.background, what, what, content)
@@ -151,20 +150,19 @@ class Session:
 
     def _submit(self, lane: Lane, topic: str, task: str, more: Mapping[str, Any]) -> Job:
         revision = self._revision
-        content = {
-            "base": self._base,
-            "values": self._values[revision],
-            "store": str(self._lanes.store),
-            **more,
-        }
+        content = {**self._design(revision), "store": str(self._lanes.store), **more}
 
         def heard(event: Event, arrays: Arrays) -> None:
             self._heard(topic, revision, event, arrays)
 
         return lane.submit(Job(self.number, topic, task, content, heard))
 
+    def _design(self, revision: int) -> dict[str, Any]:
+        """What makes the design of a revision."""
+        return {"base": self._base, "values": self._values[revision]}
+
     async def _told_if_failed(self, job: Job, what: str, revision: int) -> Outcome:
-        outcome, why = await job.outcome
+        outcome, why = await _ended(job)
         if outcome in ("failed", "crashed"):
             self.fail(what, why, revision)
         return outcome
@@ -175,6 +173,10 @@ class Session:
         kind = event["kind"]
         if kind == "cell":
             self._heard_of_cells(event, arrays)
+            return
+        if kind == "evaluated":
+            anchor = {**self._design(revision), "record": event["record"]}
+            self._lanes.take_anchor(anchor, arrays, self._heard_of_cells)
             return
         if kind == "problems" and revision == self._revision:
             self._valid = not content["problems"]
@@ -216,3 +218,9 @@ class Session:
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
         return task
+
+
+async def _ended(job: Job) -> tuple[Outcome, str]:
+    """What became of a job. Who no longer waits for it does not end it for others."""
+    await asyncio.wait([job.outcome])
+    return job.outcome.result()
