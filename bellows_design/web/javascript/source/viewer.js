@@ -304,13 +304,15 @@ export class Viewer extends EventTarget {
       camera is taken away when the cut is switched on or its axis changes. */
   setSection({ axis, offset_mm, on, flip } = {}) {
     const { section } = this;
-    const turned = (axis !== undefined && axis !== section.axis) || (on && !section.on);
-    if (axis !== undefined) section.axis = axis;
+    const other = axis !== undefined && axis !== section.axis;
+    const turned = other || (on && !section.on);
+    if (other) section.axis = axis;
     const number = ["x", "y", "z"].indexOf(section.axis);
-    const { low, high } = this.bounds;
-    if (offset_mm !== undefined) section.offset = offset_mm;
-    else if (turned && (axis !== undefined || !section.placed)) section.offset = (low[number] + high[number]) / 2;
-    section.placed = true;
+    if (offset_mm !== undefined || ((other || !section.placed) && this.shapes.length)) {
+      const { low, high } = this.bounds;
+      section.offset = offset_mm ?? (low[number] + high[number]) / 2;
+      section.placed = true;
+    }
     if (on !== undefined) section.on = Boolean(on);
     if (flip !== undefined) section.flip = Boolean(flip);
     else if (turned && this.camera) section.flip = this.camera.towards.getComponent(number) < 0;
