@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from bellows_design.analysis.evaluation import Evaluation
     from solver import Mesh
 
-BUDGET = Budget(seconds=30.0)
+BUDGET = Budget(seconds=60.0)
 
 OTHER_FACES = 0.05
 """Fraction of angle and stress that other faces may make besides."""

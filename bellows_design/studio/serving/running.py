@@ -35,7 +35,7 @@ class Options:
     Attributes:
         design: The design that is opened first.
         port: 0 for any that is free.
-        host: The address that is listened on; only one of this machine alone is admitted.
+        host: The address that is listened on; any but that of this machine alone is refused.
         browser: Whether a browser is opened.
         output: Folder of approved models.
     """
@@ -81,8 +81,7 @@ def _listening(options: Options) -> Iterator[socket.socket]:
     require_loopback(options.host)
     if not 0 <= options.port <= HIGHEST_PORT:
         raise DesignError(f"--port is {options.port} but must be 0 to {HIGHEST_PORT}.")
-    family = socket.AF_INET6 if ":" in options.host else socket.AF_INET
-    with socket.socket(family, socket.SOCK_STREAM) as listener:
+    with socket.socket(socket.AF_INET, socket.SOCK_STREAM) as listener:
         try:
             listener.bind((options.host, options.port))
         except OSError as error:

@@ -7,7 +7,6 @@ whose name is made to lead here (DNS rebinding) gives that name in ``Host``. All
 
 from __future__ import annotations
 
-import ipaddress
 import secrets
 from collections.abc import Awaitable, Callable
 from dataclasses import dataclass, field
@@ -65,12 +64,8 @@ def _bytes(text: str) -> bytes:
 
 
 def require_loopback(host: str) -> None:
-    """Raise ``DesignError`` for an address that other machines can reach."""
-    try:
-        inside = ipaddress.ip_address(host).is_loopback
-    except ValueError:
-        inside = False
-    if not inside:
+    """Raise ``DesignError`` for any other address: other machines may reach it."""
+    if host != LOOPBACK:
         raise DesignError(
             f"the studio listens on {LOOPBACK} only, not on {host[:60]!r}: other machines would "
             "reach it; use a tunnel (ssh -L) from there."

@@ -57,9 +57,11 @@ class Lanes:
         self.cells[:] = [*self.cells, make][-MOST_REMEMBERED:]
         return self.quick.submit(make())
 
-    def take_anchor(self, content: Mapping[str, Any], listener: Any) -> Job:
-        """Let previews start from an evaluation that was kept."""
-        make = _maker("anchor", content, {}, listener)
+    def take_anchor(
+        self, content: Mapping[str, Any], arrays: Mapping[str, Any], listener: Any
+    ) -> Job:
+        """Let previews start from an evaluation."""
+        make = _maker("anchor", content, arrays, listener)
         self.anchors[:] = [*self.anchors, make][-MOST_REMEMBERED:]
         return self.preview.submit(make())
 

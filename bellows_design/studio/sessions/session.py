@@ -91,7 +91,7 @@ class Session:
         if revision not in self._values:
             raise DesignError("this design is no more known: save it from the page again.")
         found: list[Event] = []
-        content = {"base": self._base, "values": self._values[revision]}
+        content = self._design(revision)
         job = Job(self.number, "toml", "toml", content, lambda event, _: found.append(event))
         outcome, why = await self._lanes.quick.submit(job).outcome
         if not found:
@@ -142,8 +142,6 @@ class Session:
             outcome, why = await job.outcome
             if outcome in ("failed", "crashed"):
                 self.fail(stage, why)
-            elif stage == "refine":
-                self._lanes.take_anchor(job.content, self._heard_of_cells)
 
     def _ask(self, what: str, content: Mapping[str, Any]) -> None:
         job = self._submit(self._lanes.background, what, what, content)
@@ -151,17 +149,16 @@ class Session:
 
     def _submit(self, lane: Lane, topic: str, task: str, more: Mapping[str, Any]) -> Job:
         revision = self._revision
-        content = {
-            "base": self._base,
-            "values": self._values[revision],
-            "store": str(self._lanes.store),
-            **more,
-        }
+        content = {**self._design(revision), "store": str(self._lanes.store), **more}
 
         def heard(event: Event, arrays: Arrays) -> None:
             self._heard(topic, revision, event, arrays)
 
         return lane.submit(Job(self.number, topic, task, content, heard))
+
+    def _design(self, revision: int) -> dict[str, Any]:
+        """What makes the design of a revision."""
+        return {"base": self._base, "values": self._values[revision]}
 
     async def _told_if_failed(self, job: Job, what: str, revision: int) -> Outcome:
         outcome, why = await job.outcome
@@ -175,6 +172,10 @@ class Session:
         kind = event["kind"]
         if kind == "cell":
             self._heard_of_cells(event, arrays)
+            return
+        if kind == "evaluated":
+            anchor = {**self._design(revision), "record": event["record"]}
+            self._lanes.take_anchor(anchor, arrays, self._heard_of_cells)
             return
         if kind == "problems" and revision == self._revision:
             self._valid = not content["problems"]

@@ -71,6 +71,7 @@ def _refine(known: Known, values: Values, report: Report) -> None:
     """The ordinary evaluation, which ``bellows evaluate`` gives too."""
     from bellows_design.deformed import deformed_surface
     from bellows_design.store.lookup import evaluated
+    from bellows_design.store.records import record_of
     from bellows_design.studio.tasks.looks import deformed
     from solver.errors import SolverError
 
@@ -81,6 +82,8 @@ def _refine(known: Known, values: Values, report: Report) -> None:
     checked, seconds = known.reports.get(design.digest), time.perf_counter() - began
     how = f"evaluated by itself on {len(found.meshes)} meshes"
     report("answer", **answer_of(design, found, REFINED, how, seconds, checked))
+    record, arrays = record_of(found)
+    report("evaluated", arrays, record=record)
     try:
         report.shown("deformed", deformed(deformed_surface(found)), state=REFINED)
     except (BellowsError, SolverError) as error:

@@ -39,7 +39,7 @@ def tasks() -> dict[str, Task]:
     anchors = Anchors()
     return {
         "preview": lambda values, _, report: _told(_preview, anchors, values, report),
-        "anchor": lambda values, _, report: _told(_anchor, anchors, values, report),
+        "anchor": lambda values, arrays, report: _anchor(anchors, values, arrays, report),
         "warm": lambda _, __, ___: _warm(),
     }
 
@@ -85,12 +85,13 @@ def _answer(
     report("answer", **answer_of(design, found, state, how, time.perf_counter() - began))
 
 
-def _anchor(anchors: Anchors, values: Values, report: Report) -> None:
-    """Start from now on from the ordinary evaluation of a design, which another process kept."""
+def _anchor(anchors: Anchors, values: Values, arrays: Values, report: Report) -> None:
+    """Start from now on from the ordinary evaluation of a design, which another process found."""
+    from bellows_design.store.records import evaluation_from
+
     design = changed(design_of_text(values["base"]), values["values"])
-    kept = kept_evaluation(store_at(values), design)
-    if kept is not None:
-        _take(anchors, kept, report)
+    with solving(report):
+        _take(anchors, evaluation_from(values["record"], arrays, design), report)
 
 
 def _take(anchors: Anchors, found: Evaluation, report: Report) -> None:

@@ -26,6 +26,7 @@ from bellows_design.evaluation import (
 from bellows_design.morphing.morpher import Morpher
 from bellows_design.neighbours.carried import REACH
 from bellows_design.neighbours.sensitivities import sensitivities
+from bellows_design.progress import Progress
 from solver import SolverOptions, solve
 
 Coarse = Callable[[str], Evaluation]
@@ -149,14 +150,16 @@ def test_a_step_that_fails_is_taken_in_halves(
     session = Neighbourhood(anchor)
     step, taken = Neighbourhood._step, []
 
-    def short_steps_only(self: Neighbourhood, design: Design, start: object) -> object:
+    def short_steps_only(
+        self: Neighbourhood, design: Design, start: object, progress: Progress
+    ) -> object:
         from bellows_design.neighbours.distance import distance
         from bellows_design.neighbours.neighbourhood import NotReached
 
         if distance(start.design, design) > 0.015:  # type: ignore[attr-defined]
             raise NotReached("too long a step")
         taken.append(design)
-        return step(self, design, start)  # type: ignore[arg-type]
+        return step(self, design, start, progress)  # type: ignore[arg-type]
 
     monkeypatch.setattr(Neighbourhood, "_step", short_steps_only)
     design = varied(anchor.design, {"bubble_width": 20.5})

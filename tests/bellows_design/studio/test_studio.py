@@ -22,6 +22,12 @@ pytestmark = pytest.mark.slow
 LONGEST = 600.0
 
 
+@pytest.fixture(scope="module")
+def store(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Evaluations of all tests here: the first design is the same."""
+    return tmp_path_factory.mktemp("store")
+
+
 class Page:
     """A page without a browser: what it heard, by kind, of the last revision."""
 
@@ -56,9 +62,9 @@ class Page:
         return Design.from_toml((await self.session.toml(self.revision))["text"])
 
 
-def in_loop(folder: Path, check: Callable[[Page], Awaitable[None]]) -> None:
+def in_loop(store: Path, folder: Path, check: Callable[[Page], Awaitable[None]]) -> None:
     async def whole() -> None:
-        lanes = Lanes(folder / "store", folder / "exports")
+        lanes = Lanes(store, folder / "exports")
         lanes.start()
         page = Page(lanes, folder)
         page.session.open("prototype_1", None, 0)
@@ -88,7 +94,7 @@ def agree(answer: dict[str, Any], design: Design) -> None:
 
 
 def test_previews_and_refined_answers_are_those_of_evaluate_on_the_saved_design(
-    tmp_path: Path,
+    store: Path, tmp_path: Path
 ) -> None:
     async def check(page: Page) -> None:
         for values in (
@@ -105,10 +111,10 @@ def test_previews_and_refined_answers_are_those_of_evaluate_on_the_saved_design(
         assert refined["bending_angle_deg"] == pytest.approx(found.bending_angle_deg, rel=1e-9)
         assert refined["max_von_mises_mpa"] == pytest.approx(found.max_von_mises_mpa, rel=1e-9)
 
-    in_loop(tmp_path, check)
+    in_loop(store, tmp_path, check)
 
 
-def test_all_kinds_of_messages_come_and_belong_to_the_design(tmp_path: Path) -> None:
+def test_all_kinds_of_messages_come_and_belong_to_the_design(store: Path, tmp_path: Path) -> None:
     async def check(page: Page) -> None:
         kinds = {each["type"] for each in page.heard}
         assert kinds >= {
@@ -121,10 +127,10 @@ def test_all_kinds_of_messages_come_and_belong_to_the_design(tmp_path: Path) -> 
         rows = {each["parameter"]: each for each in page.heard[-1]["sensitivities"]}
         assert rows["bubble_width"]["angle_per_unit"] > 0 > rows["tendon_width"]["angle_per_unit"]
 
-    in_loop(tmp_path, check)
+    in_loop(store, tmp_path, check)
 
 
-def test_other_faces_are_solved_by_themselves_and_shown(tmp_path: Path) -> None:
+def test_other_faces_are_solved_by_themselves_and_shown(store: Path, tmp_path: Path) -> None:
     async def check(page: Page) -> None:
         page.change({"inner_fillet": 1.0})  # a full round
         await page.until("shape_follows")
@@ -133,10 +139,10 @@ def test_other_faces_are_solved_by_themselves_and_shown(tmp_path: Path) -> None:
         await page.until("shape", source="morph")
         agree(preview, await page.saved())
 
-    in_loop(tmp_path, check)
+    in_loop(store, tmp_path, check)
 
 
-def test_many_quick_changes_leave_the_answer_of_the_last(tmp_path: Path) -> None:
+def test_many_quick_changes_leave_the_answer_of_the_last(store: Path, tmp_path: Path) -> None:
     async def check(page: Page) -> None:
         for step in range(30):
             page.change({"bubble_width": 20.0 + 0.05 * step})
@@ -145,10 +151,10 @@ def test_many_quick_changes_leave_the_answer_of_the_last(tmp_path: Path) -> None
         agree(answer, await page.saved())
         assert (await page.saved()).bellows.bubble_width == pytest.approx(21.45)
 
-    in_loop(tmp_path, check)
+    in_loop(store, tmp_path, check)
 
 
-def test_a_preview_whose_process_was_killed_comes_from_another(tmp_path: Path) -> None:
+def test_a_preview_whose_process_was_killed_comes_from_another(store: Path, tmp_path: Path) -> None:
     async def check(page: Page) -> None:
         import psutil
 
@@ -162,10 +168,10 @@ def test_a_preview_whose_process_was_killed_comes_from_another(tmp_path: Path) -
         answer = await page.until("answer", state="preview")
         assert answer["how"].startswith("continued")
 
-    in_loop(tmp_path, check)
+    in_loop(store, tmp_path, check)
 
 
-def test_blocked_scene_has_figures_and_a_picture(tmp_path: Path) -> None:
+def test_blocked_scene_has_figures_and_a_picture(store: Path, tmp_path: Path) -> None:
     async def check(page: Page) -> None:
         page.tell("scene", scene="blocked", support="held")
         found = await page.until("scene")
@@ -173,10 +179,10 @@ def test_blocked_scene_has_figures_and_a_picture(tmp_path: Path) -> None:
         assert figures["Force"] > 0 and figures["Pressure"] == pytest.approx(0.1)
         assert found["svg"].startswith("<svg") and "style=" not in found["svg"]
 
-    in_loop(tmp_path, check)
+    in_loop(store, tmp_path, check)
 
 
-def test_run_writes_into_the_folder_of_exports_only(tmp_path: Path) -> None:
+def test_run_writes_into_the_folder_of_exports_only(store: Path, tmp_path: Path) -> None:
     async def check(page: Page) -> None:
         page.session.open("finger", None, page.revision)
         await page.until("start", name="finger")
@@ -188,7 +194,7 @@ def test_run_writes_into_the_folder_of_exports_only(tmp_path: Path) -> None:
         assert (tmp_path / "exports" / "finger" / "finger.stl").is_file()
         assert page.session.files["finger/finger.stl"][1] == "finger.stl"
 
-    in_loop(tmp_path, check)
+    in_loop(store, tmp_path, check)
 
 
 def test_first_design_of_the_page_is_that_of_the_command_line() -> None:
