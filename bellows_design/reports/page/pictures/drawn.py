@@ -39,7 +39,9 @@ def _chart(axes: Axes, chart: Chart) -> None:
             axes.fill_between(line.x, line.low, line.high, color=colour, alpha=0.2, linewidth=0)
         style = "--" if line.dashed else "-"
         marker = "o" if line.points else ""
-        axes.plot(line.x, line.y, style, marker=marker, markersize=3.5, color=colour, label=line.name)
+        axes.plot(
+            line.x, line.y, style, marker=marker, markersize=3.5, color=colour, label=line.name
+        )
     for low, high in chart.shaded:
         axes.axvspan(low, high, color="#e9edf1", zorder=0)
     _limits(axes, chart)
@@ -102,7 +104,9 @@ def _drawing(axes: Axes, drawing: Drawing) -> None:
             case Line(points, kind, strength):
                 colour, style = LINES.get(kind, (MUTED, "-"))
                 width = 1.6 if kind == "finger" else 0.5
-                axes.plot(*zip(*points, strict=True), style, color=colour, linewidth=width, alpha=strength)
+                axes.plot(
+                    *zip(*points, strict=True), style, color=colour, linewidth=width, alpha=strength
+                )
             case Dot((x, y), radius, kind):
                 axes.plot([x], [y], "o", markersize=radius, color=DOTS.get(kind, SERIES[1]))
             case Text():

@@ -16,7 +16,14 @@ from bellows_design.reports.page.blocks import (
     Sentences,
     Tone,
 )
-from bellows_design.reports.page.wording import TONES, capitalised, headings, number, shown, with_unit
+from bellows_design.reports.page.wording import (
+    TONES,
+    capitalised,
+    headings,
+    number,
+    shown,
+    with_unit,
+)
 
 if TYPE_CHECKING:
     from bellows_design.leak_test.record import LeakOutcome, LeakTest

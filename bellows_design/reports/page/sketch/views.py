@@ -82,7 +82,9 @@ def _of_side(design: Design) -> Iterator[Dimension]:
             yield _upright("fingertip.rib_height", pad.rib_height, beside, 0.0)
     if design.mount is not None and design.mount.kind == "flange":
         top = design.mount.height(port)
-        yield _level("mount.thickness", design.mount.thickness, -design.mount.thickness, top, "above")
+        yield _level(
+            "mount.thickness", design.mount.thickness, -design.mount.thickness, top, "above"
+        )
 
 
 def _detail(design: Design, loops: tuple[Loop, ...]) -> View:
@@ -124,7 +126,9 @@ def _radii(design: Design, middle: float) -> Iterator[Callout]:
     yield Callout("outer_fillet", bellows.outer_fillet, corner)
     half, radius = bellows.chamber_length / 2, bellows.chamber_fillet
     top = bellows.bubble_height - bellows.bubble_thickness
-    yield Callout("inner_fillet", bellows.inner_fillet, (middle + half - INSET * radius, top - INSET * radius))
+    yield Callout(
+        "inner_fillet", bellows.inner_fillet, (middle + half - INSET * radius, top - INSET * radius)
+    )
     if indent is not None and indent.shape == "rectangular":
         inside = indent.side == "inside"
         level = bellows.bubble_thickness - indent.depth if inside else indent.depth
