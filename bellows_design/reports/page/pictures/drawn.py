@@ -9,6 +9,7 @@ from bellows_design.reports.page.drawing.marks import Area, Dot, Drawing, Line, 
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.patches import PathPatch
 
 SERIES = ("#0b62a8", "#c2570c", "#17805b", "#a13d88")
 RED, INK, MUTED = "#b3261e", "#1a222b", "#55616e"
@@ -48,8 +49,8 @@ def _chart(axes: Axes, chart: Chart) -> None:
     for mark in chart.marks:
         axes.plot([mark.x], [mark.y], "o", color=SERIES[0], markeredgecolor=INK)
         axes.annotate(
-            mark.text, (mark.x, mark.y), (-6, 7), textcoords="offset points", ha="right", fontsize=8,
-            parse_math=False,
+            mark.text, (mark.x, mark.y), (-6, 7), textcoords="offset points", ha="right",
+            fontsize=8, parse_math=False,
         )  # fmt: skip
     axes.set_xlabel(chart.x_label, fontsize=8)
     axes.set_ylabel(chart.y_label, fontsize=8)
@@ -118,7 +119,7 @@ def _drawing(axes: Axes, drawing: Drawing) -> None:
     axes.set_title(drawing.title, fontsize=9, parse_math=False)
 
 
-def _area(axes: Axes, area: Area) -> object:
+def _area(axes: Axes, area: Area) -> PathPatch:
     """Loops with their holes, as one path of the even-odd kind would fill them."""
     import numpy as np
     from matplotlib.patches import PathPatch

@@ -31,8 +31,8 @@ if TYPE_CHECKING:
     from printers.report import RuleResult
 
 CAPTION = (
-    "The beads as the slicer lays them down, layer by layer; marks are where the part leaks, or where "
-    "its seal is thinnest."
+    "The beads as the slicer lays them down, layer by layer; marks are where the part leaks, or "
+    "where its seal is thinnest."
 )
 
 TITLES = ("", "rule", "measured", "required", "where", "what it says")

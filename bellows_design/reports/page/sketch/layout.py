@@ -146,9 +146,9 @@ def _dimension(
             (point(high if behind else low, at), point(place.start if behind else place.end, at)),
             "dimension",
         )
-    for end, towards in ((low, 1 if inside else -1), (high, -1 if inside else 1)):
-        tips = [point(end + towards * ARROW * 1.6, at + side * ARROW * 0.6) for side in (-1, 1)]
-        yield Area(((point(end, at), *tips),), "arrow")
+    for tip, towards in ((low, 1 if inside else -1), (high, -1 if inside else 1)):
+        tips = [point(tip + towards * ARROW * 1.6, at + side * ARROW * 0.6) for side in (-1, 1)]
+        yield Area(((point(tip, at), *tips),), "arrow")
     yield _label(dimension, place, point, at, upright)
 
 
