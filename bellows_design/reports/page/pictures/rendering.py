@@ -51,7 +51,7 @@ def _mesh(surface: Surface, look: Look) -> Any:
     import pyvista
 
     positions = frames_of(surface)[look.frame]
-    triangles = np.asarray(surface.triangles, dtype=np.int64)
+    triangles: Any = np.asarray(surface.triangles)
     mesh: Any = pyvista.PolyData.from_regular_faces(positions, triangles)
     field = field_of(surface, look)
     if field is not None:
