@@ -1,9 +1,10 @@
 """The folder of an approved design.
 
 ``exports/NAME/`` holds ``NAME.stl``, ``NAME.3mf``, ``NAME.step``, what ships with the part,
-``manifest.json``, ``run.json`` and, if one was made, the report. The folder is written under a hidden name beside its place, read
-back and compared, and renamed when it is complete: a reader finds all of it or nothing. Runs that
-export to one folder take turns: each finishes, or withdraws, a whole export before the next begins.
+``manifest.json``, ``run.json`` and, if one was made, the report. The folder is written under a
+hidden name beside its place, read back and compared, and renamed when it is complete: a reader
+finds all of it or nothing. Runs that export to one folder take turns: each finishes, or withdraws,
+a whole export before the next begins.
 
 A name has one current verdict. An export replaces the earlier one of its name, and a refusal
 withdraws it, so that an outdated approval is never taken for the current one. Nothing is lost: the

@@ -115,11 +115,19 @@ def _scene(design: Design, name: str, scene: Scene, means: _Means) -> SceneResul
 
     means.progress.stage(f"scene {name}")
     pressures = [share / STEPS * design.load.pressure for share in range(1, STEPS + 1)]
-    use = {"progress": means.progress, "budget": means.budget, "store": means.store}
     try:
-        return SceneResult(name, force_curve(design, scene, pressures, name=name, **use))
+        found = force_curve(
+            design,
+            scene,
+            pressures,
+            name=name,
+            progress=means.progress,
+            budget=means.budget,
+            store=means.store,
+        )
     except FAILURES as error:
         return SceneResult(name, failure=str(error))
+    return SceneResult(name, found)
 
 
 STEPS = 5

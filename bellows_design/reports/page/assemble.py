@@ -48,12 +48,16 @@ def as_html(page: Page, made: str) -> str:
     from bellows_design.web.element import viewer_script
     from bellows_design.web.style import page_style
 
-    return _environment().get_template("page.html").render(
-        page=page,
-        made=made,
-        policy=POLICY,
-        style=Markup(page_style() + _own_style()),
-        script=Markup(viewer_script()),
+    return (
+        _environment()
+        .get_template("page.html")
+        .render(
+            page=page,
+            made=made,
+            policy=POLICY,
+            style=Markup(page_style() + _own_style()),
+            script=Markup(viewer_script()),
+        )
     )
 
 

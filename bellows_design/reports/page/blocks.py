@@ -10,8 +10,8 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, ClassVar, Literal
 
 if TYPE_CHECKING:
-    from bellows_design.reports.page.drawing.marks import Drawing
     from bellows_design.reports.page.curves.chart import BarChart, Chart
+    from bellows_design.reports.page.drawing.marks import Drawing
     from bellows_design.web.layers import PrintLayers
     from bellows_design.web.scene import Shown
 

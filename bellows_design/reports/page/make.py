@@ -26,7 +26,9 @@ def run_report(outcome: Outcome, files: Mapping[str, bytes]) -> bytes:
     from bellows_design.export.manifest import fingerprint
 
     prints = {name: fingerprint(content) for name, content in sorted(files.items())}
-    return report_html(replace(findings_of(outcome, derivatives=False, frames=FEW_FRAMES), files=prints))
+    return report_html(
+        replace(findings_of(outcome, derivatives=False, frames=FEW_FRAMES), files=prints)
+    )
 
 
 def report_html(findings: Findings) -> bytes:

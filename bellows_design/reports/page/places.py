@@ -92,9 +92,7 @@ def _drawing(
     return Drawing(2 * MARGIN + LONGEST, height, tuple(marks), title)
 
 
-def _free(
-    spot: tuple[float, float], taken: Sequence[tuple[float, float]]
-) -> tuple[float, float]:
+def _free(spot: tuple[float, float], taken: Sequence[tuple[float, float]]) -> tuple[float, float]:
     """A place for a number beside its dot that no other number has."""
     x, y = spot
     around = ((9, -6), (-9, -6), (9, 13), (-9, 13), (0, -10), (0, 18), (18, 4), (-18, 4))

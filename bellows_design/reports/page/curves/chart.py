@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 from bellows_design.web.charts import Bar, Limit, Line, Mark, bar_chart, line_chart
 
-
 ROOM = 1.2
 """Of the largest value: as far as an axis reaches."""
 

@@ -15,8 +15,10 @@ if TYPE_CHECKING:
 def force_chart(found: ForceCurve) -> Chart:
     """Force against pressure; a mark where neighbouring bubbles first touch."""
     touching = next((each for each in found.curve if each.contact), None)
-    marks = () if touching is None else (
-        Mark(touching.pressure_mpa, touching.force_n, "bubbles touch from here on"),
+    marks = (
+        ()
+        if touching is None
+        else (Mark(touching.pressure_mpa, touching.force_n, "bubbles touch from here on"),)
     )
     line = _line(found.curve, lambda each: each.pressure_mpa)
     title = f"Force in the scene {found.scene}"

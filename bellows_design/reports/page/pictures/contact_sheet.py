@@ -89,7 +89,9 @@ def _shape(figure: Any, axes: Any, surface: Surface, look: Look, title: str) -> 
     axes.set_title(title, fontsize=10, parse_math=False)
     field = field_of(surface, look)
     if field is not None:
-        colours = ScalarMappable(Normalize(*scale_of(field)), "viridis_r" if field.reverse else "viridis")
+        colours = ScalarMappable(
+            Normalize(*scale_of(field)), "viridis_r" if field.reverse else "viridis"
+        )
         figure.colorbar(colours, ax=axes, shrink=0.6, orientation="horizontal", pad=0.02)
 
 

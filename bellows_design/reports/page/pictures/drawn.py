@@ -9,6 +9,7 @@ from bellows_design.reports.page.drawing.marks import Area, Dot, Drawing, Line, 
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.patches import PathPatch
 
 SERIES = ("#0b62a8", "#c2570c", "#17805b", "#a13d88")
 RED, INK, MUTED = "#b3261e", "#1a222b", "#55616e"
@@ -39,15 +40,17 @@ def _chart(axes: Axes, chart: Chart) -> None:
             axes.fill_between(line.x, line.low, line.high, color=colour, alpha=0.2, linewidth=0)
         style = "--" if line.dashed else "-"
         marker = "o" if line.points else ""
-        axes.plot(line.x, line.y, style, marker=marker, markersize=3.5, color=colour, label=line.name)
+        axes.plot(
+            line.x, line.y, style, marker=marker, markersize=3.5, color=colour, label=line.name
+        )
     for low, high in chart.shaded:
         axes.axvspan(low, high, color="#e9edf1", zorder=0)
     _limits(axes, chart)
     for mark in chart.marks:
         axes.plot([mark.x], [mark.y], "o", color=SERIES[0], markeredgecolor=INK)
         axes.annotate(
-            mark.text, (mark.x, mark.y), (-6, 7), textcoords="offset points", ha="right", fontsize=8,
-            parse_math=False,
+            mark.text, (mark.x, mark.y), (-6, 7), textcoords="offset points", ha="right",
+            fontsize=8, parse_math=False,
         )  # fmt: skip
     axes.set_xlabel(chart.x_label, fontsize=8)
     axes.set_ylabel(chart.y_label, fontsize=8)
@@ -102,7 +105,9 @@ def _drawing(axes: Axes, drawing: Drawing) -> None:
             case Line(points, kind, strength):
                 colour, style = LINES.get(kind, (MUTED, "-"))
                 width = 1.6 if kind == "finger" else 0.5
-                axes.plot(*zip(*points, strict=True), style, color=colour, linewidth=width, alpha=strength)
+                axes.plot(
+                    *zip(*points, strict=True), style, color=colour, linewidth=width, alpha=strength
+                )
             case Dot((x, y), radius, kind):
                 axes.plot([x], [y], "o", markersize=radius, color=DOTS.get(kind, SERIES[1]))
             case Text():
@@ -114,7 +119,7 @@ def _drawing(axes: Axes, drawing: Drawing) -> None:
     axes.set_title(drawing.title, fontsize=9, parse_math=False)
 
 
-def _area(axes: Axes, area: Area) -> object:
+def _area(axes: Axes, area: Area) -> PathPatch:
     """Loops with their holes, as one path of the even-odd kind would fill them."""
     import numpy as np
     from matplotlib.patches import PathPatch

@@ -137,7 +137,9 @@ def _head(paper: _Paper, head: Head) -> None:
     paper.line(f"{head.verdict}. {head.summary}", 12, colour, weight="bold")
     paper.down += 0.08
     for fact in head.figures:
-        paper.text(" ".join(each for each in (f"{fact.name}:", fact.value, fact.error, fact.note) if each))
+        paper.text(
+            " ".join(each for each in (f"{fact.name}:", fact.value, fact.error, fact.note) if each)
+        )
     for fact in head.reasons:
         paper.text(f"{fact.name} ({fact.note}): {fact.value}", RED)
     for text in head.warnings:
@@ -242,8 +244,10 @@ def _space(paper: _Paper, block: Space) -> None:
     if surface is None:
         return
     moves = len(surface.frame_labels) > 1
-    looks = (Look(block.field, 0), Look(block.field)) if moves else (
-        Look(block.field), Look(block.field, cut=True)
+    looks = (
+        (Look(block.field, 0), Look(block.field))
+        if moves
+        else (Look(block.field), Look(block.field, cut=True))
     )
     paper.room(height)
     for number, look in enumerate(looks):

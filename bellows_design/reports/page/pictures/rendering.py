@@ -34,7 +34,7 @@ def rendered(surface: Surface, look: Look) -> NDArray[np.uint8]:
     import pyvista
 
     try:
-        plotter = pyvista.Plotter(off_screen=True, window_size=look.size)
+        plotter: Any = pyvista.Plotter(off_screen=True, window_size=list(look.size))
         plotter.set_background("white")
         plotter.add_mesh(_mesh(surface, look), **_options(surface, look))
         plotter.view_vector((-0.55, -1.0, 0.45) if not look.cut else (0.0, -1.0, 0.18))
@@ -51,7 +51,8 @@ def _mesh(surface: Surface, look: Look) -> Any:
     import pyvista
 
     positions = frames_of(surface)[look.frame]
-    mesh = pyvista.PolyData.from_regular_faces(positions, surface.triangles)
+    triangles: Any = np.asarray(surface.triangles)
+    mesh: Any = pyvista.PolyData.from_regular_faces(positions, triangles)
     field = field_of(surface, look)
     if field is not None:
         values = np.asarray(field.values)

@@ -25,6 +25,8 @@ def files(findings: Findings) -> Section:
             (Cell(name), number(str(each["bytes"])), Cell(str(each["sha256"])))
             for name, each in findings.files.items()
         )
-        told = Sentences(("bellows verify FOLDER compares them, and rebuilds the design.",), "muted")
+        told = Sentences(
+            ("bellows verify FOLDER compares them, and rebuilds the design.",), "muted"
+        )
         blocks = (digest, Grid(headings("file", "bytes", "SHA-256", right=("bytes",)), rows), told)
     return Section("files", "Files", blocks)

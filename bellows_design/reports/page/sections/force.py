@@ -32,7 +32,9 @@ NONE_ASKED = (
 
 def force(findings: Findings) -> Section:
     """Every scene that the design must hold, or that was asked for."""
-    blocks = [block for each in (*findings.outcome.scenes, *findings.further) for block in _scene(each)]
+    blocks = [
+        block for each in (*findings.outcome.scenes, *findings.further) for block in _scene(each)
+    ]
     return Section("force", "Force", tuple(blocks) or (Sentences((NONE_ASKED,), "muted"),))
 
 
@@ -57,7 +59,9 @@ def _pictures(found: ForceCurve) -> Iterator[Picture]:
         "The finger's lower side, darker the higher the pressure; dots where it presses.",
     )
     if len(found.curve) > 1 and any(each.force_n for each in found.curve):
-        yield Picture(force_chart(found), "Force against pressure; the band is its estimated error.")
+        yield Picture(
+            force_chart(found), "Force against pressure; the band is its estimated error."
+        )
     if found.by_distance:
         yield Picture(
             by_distance_chart(found), "At the last pressure, while the support moves away."

@@ -88,4 +88,6 @@ def _computed(found: Outcome, evaluation: Evaluation) -> Iterator[Fact]:
     )
     reached = evaluation.pressure_mpa / found.design.load.pressure >= 1 - 1e-9
     note = "design pressure" if reached else f"of {pressure_text(found.design.load.pressure)} asked"
-    yield Fact("Pressure", pressure_text(evaluation.pressure_mpa), note=note, tone="" if reached else "bad")
+    yield Fact(
+        "Pressure", pressure_text(evaluation.pressure_mpa), note=note, tone="" if reached else "bad"
+    )

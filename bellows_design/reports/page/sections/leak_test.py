@@ -16,7 +16,14 @@ from bellows_design.reports.page.blocks import (
     Sentences,
     Tone,
 )
-from bellows_design.reports.page.wording import TONES, capitalised, headings, number, shown, with_unit
+from bellows_design.reports.page.wording import (
+    TONES,
+    capitalised,
+    headings,
+    number,
+    shown,
+    with_unit,
+)
 
 if TYPE_CHECKING:
     from bellows_design.leak_test.record import LeakOutcome, LeakTest
@@ -24,8 +31,8 @@ if TYPE_CHECKING:
     from printers.report import RuleResult
 
 CAPTION = (
-    "The beads as the slicer lays them down, layer by layer; marks are where the part leaks, or where "
-    "its seal is thinnest."
+    "The beads as the slicer lays them down, layer by layer; marks are where the part leaks, or "
+    "where its seal is thinnest."
 )
 
 TITLES = ("", "rule", "measured", "required", "where", "what it says")

@@ -39,11 +39,15 @@ def _blocks(own: Material, reached: ReachedStrain | None) -> Iterator[Block]:
 
 
 def _caption(own: Material, reached: ReachedStrain | None) -> str:
-    tested = "The shaded range was tested." if own.valid_strain else (
-        "The material does not state the range of its tests, so none is shaded."
+    tested = (
+        "The shaded range was tested."
+        if own.valid_strain
+        else ("The material does not state the range of its tests, so none is shaded.")
     )
-    marks = "" if reached is None else (
-        " Marks are the lowest and the highest principal strain that the finger reaches."
+    marks = (
+        ""
+        if reached is None
+        else (" Marks are the lowest and the highest principal strain that the finger reaches.")
     )
     return f"{tested}{marks}"
 
@@ -60,7 +64,12 @@ def _facts(own: Material, reached: ReachedStrain | None) -> Iterator[Fact]:
     if reached is not None:
         note = {True: "within the tests", False: "beyond the tests", None: ""}[reached.within]
         values = (reached.lowest, reached.highest)
-        yield Fact("strains reached", _range(values), note=note, tone="warn" if reached.within is False else "")
+        yield Fact(
+            "strains reached",
+            _range(values),
+            note=note,
+            tone="warn" if reached.within is False else "",
+        )
     if own.fit_error is not None:
         yield Fact("error of the fit", f"{own.fit_error:.3g} %")
     if own.fit_modulus_error is not None:

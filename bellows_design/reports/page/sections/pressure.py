@@ -72,7 +72,9 @@ def _facts(found: Evaluation) -> Iterator[Fact]:
     error = found.error_estimate
     angle, stress = found.bending_angle_deg, found.max_von_mises_mpa
     yield Fact("pressure reached", pressure_text(found.pressure_mpa))
-    yield Fact("bending angle", f"{angle:.1f}°", plus_minus(angle, error.bending_angle_percent, "°"))
+    yield Fact(
+        "bending angle", f"{angle:.1f}°", plus_minus(angle, error.bending_angle_percent, "°")
+    )
     yield Fact(
         "highest von Mises stress",
         f"{stress:.3f} MPa",

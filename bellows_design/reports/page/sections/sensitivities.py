@@ -18,8 +18,8 @@ from bellows_design.reports.page.blocks import (
 )
 from bellows_design.reports.page.curves.chart import BarChart
 from bellows_design.reports.page.wording import capitalised, headings, number
-from bellows_design.web.charts import Bar
 from bellows_design.reports.sensitivities import COLUMNS, notes_on, strongest_first
+from bellows_design.web.charts import Bar
 
 if TYPE_CHECKING:
     from bellows_design.neighbours.sensitivities import Sensitivities, Sensitivity
@@ -53,9 +53,7 @@ def _sentences(rows: list[Sensitivity]) -> Iterator[str]:
     for row in rows[:TOLD]:
         angle, stress = row.elasticities[ANGLE], row.elasticities[STRESS]
         if angle is not None and stress is not None:
-            yield (
-                f"{row.parameter} + 1 %: angle {angle:+.2f} %, highest stress {stress:+.2f} %."
-            )
+            yield (f"{row.parameter} + 1 %: angle {angle:+.2f} %, highest stress {stress:+.2f} %.")
 
 
 def _pictures(rows: list[Sensitivity]) -> Iterator[Picture]:

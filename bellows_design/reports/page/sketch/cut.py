@@ -36,7 +36,7 @@ def cut(mesh: ClosedMesh, axis: int, place: float) -> tuple[Loop, ...]:
 
     solid = Trimesh(mesh.vertices, mesh.triangles, process=False)
     normal, origin = np.eye(3)[axis], np.eye(3)[axis] * (place + BESIDE)
-    segments = mesh_plane(solid, normal, origin)
+    segments = mesh_plane(solid, normal, origin)  # type: ignore[no-untyped-call]
     others = [each for each in range(3) if each != axis]
     return tuple(map(_without_straights, _loops(np.asarray(segments)[:, :, others])))
 

@@ -60,7 +60,15 @@ def fingertip_view(design: Design, mesh: ClosedMesh) -> View:
     loops = cut(mesh, 0, design.bellows.length + pad.rib_width / 2)
     half = pad.width / 2
     dimensions = (
-        Dimension("fingertip.width", pad.width, (-half, 0.9 * pad.thickness), (half, 0.9 * pad.thickness), "below"),
-        Dimension("fingertip.thickness", pad.thickness, (half, 0.0), (half, pad.thickness), "right"),
+        Dimension(
+            "fingertip.width",
+            pad.width,
+            (-half, 0.9 * pad.thickness),
+            (half, 0.9 * pad.thickness),
+            "below",
+        ),
+        Dimension(
+            "fingertip.thickness", pad.thickness, (half, 0.0), (half, pad.thickness), "right"
+        ),
     )
     return View(f"Fingertip from the front, {pad.ribs} ribs", loops, dimensions)

@@ -49,7 +49,11 @@ def drawn(view: View, scale: float) -> Drawing:
     rough = Sheet(scale, 0.0, 0.0)
     box = _box(view, rough)
     rows = {side: _rows(view, rough, side) for side in _SIDES}
-    marks = [*_part(view, rough), *_dimensions(rows, rough, box), *_callouts(view, rough, box, rows)]
+    marks = [
+        *_part(view, rough),
+        *_dimensions(rows, rough, box),
+        *_callouts(view, rough, box, rows),
+    ]
     return _fitted(view, marks, box)
 
 
@@ -138,10 +142,13 @@ def _dimension(
     yield Line((point(low - reach, at), point(high + reach, at)), "dimension")
     if place.start > high or place.end < low:
         behind = place.start > high
-        yield Line((point(high if behind else low, at), point(place.start if behind else place.end, at)), "dimension")
-    for end, towards in ((low, 1 if inside else -1), (high, -1 if inside else 1)):
-        tips = [point(end + towards * ARROW * 1.6, at + side * ARROW * 0.6) for side in (-1, 1)]
-        yield Area(((point(end, at), *tips),), "arrow")
+        yield Line(
+            (point(high if behind else low, at), point(place.start if behind else place.end, at)),
+            "dimension",
+        )
+    for tip, towards in ((low, 1 if inside else -1), (high, -1 if inside else 1)):
+        tips = [point(tip + towards * ARROW * 1.6, at + side * ARROW * 0.6) for side in (-1, 1)]
+        yield Area(((point(tip, at), *tips),), "arrow")
     yield _label(dimension, place, point, at, upright)
 
 

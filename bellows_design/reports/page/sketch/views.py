@@ -63,26 +63,35 @@ def _of_side(design: Design) -> Iterator[Dimension]:
     built = bellows.root_length
     note = "" if abs(built - bellows.offset) < 1e-9 else f", built {built:.4g}"
     yield Dimension("offset", bellows.offset, root, (built, up), "above", note)
-    end = (bellows.length, bellows.tendon_height / 2)
-    yield Dimension("length", bellows.length, root, end, "below")
+    yield Dimension("length", bellows.length, root, (bellows.length, _face(design)), "below")
     mouth = -port.depth
     yield Dimension("port.depth", port.depth, (mouth, socket), root, "below")
     low = port.axis_height - port.tube_diameter / 2
     yield _upright("port.tube_diameter", port.tube_diameter, mouth, low, "left")
     yield _upright("port.wall", port.wall, mouth, 0.0, "left")
-    last = bellows.bubble_middles[-1] + bellows.bubble_length / 2
-    yield _upright("bubble_height", bellows.bubble_height, last - bellows.bubble_length / 2, 0.0)
+    last, height = bellows.bubble_middles[-1], bellows.bubble_height
+    foot = (last - bellows.bubble_length / 2, 0.0)
+    yield Dimension("bubble_height", height, foot, (last, height), "right")
     if design.fingertip is not None:
         pad, tip = design.fingertip, bellows.length
-        yield _level("fingertip.length", pad.length, tip, pad.thickness * 0.9, "below")
+        yield _level("fingertip.length", pad.length, tip, pad.thickness, "below")
         yield _upright("fingertip.thickness", pad.thickness, tip + pad.length, 0.0)
         if pad.ribs:
-            yield _level("fingertip.rib_width", pad.rib_width, tip, pad.rib_height / 2, "below")
             beside = tip + pad.rib_width + pad.groove_width / 2
+            rib = beside + pad.groove_width / 2
+            yield _level("fingertip.rib_width", pad.rib_width, rib, pad.rib_height / 2, "below")
             yield _upright("fingertip.rib_height", pad.rib_height, beside, 0.0)
     if design.mount is not None and design.mount.kind == "flange":
         top = design.mount.height(port)
-        yield _level("mount.thickness", design.mount.thickness, -design.mount.thickness, top, "above")
+        yield _level(
+            "mount.thickness", design.mount.thickness, -design.mount.thickness, top, "above"
+        )
+
+
+def _face(design: Design) -> float:
+    """Height of a place of the tip's face that no fingertip hides, mm."""
+    height, pad = design.bellows.tendon_height, design.fingertip
+    return height / 2 if pad is None else (height + pad.thickness) / 2
 
 
 def _detail(design: Design, loops: tuple[Loop, ...]) -> View:
@@ -124,7 +133,9 @@ def _radii(design: Design, middle: float) -> Iterator[Callout]:
     yield Callout("outer_fillet", bellows.outer_fillet, corner)
     half, radius = bellows.chamber_length / 2, bellows.chamber_fillet
     top = bellows.bubble_height - bellows.bubble_thickness
-    yield Callout("inner_fillet", bellows.inner_fillet, (middle + half - INSET * radius, top - INSET * radius))
+    yield Callout(
+        "inner_fillet", bellows.inner_fillet, (middle + half - INSET * radius, top - INSET * radius)
+    )
     if indent is not None and indent.shape == "rectangular":
         inside = indent.side == "inside"
         level = bellows.bubble_thickness - indent.depth if inside else indent.depth
@@ -144,7 +155,6 @@ def _bubble(design: Design, loops: tuple[Loop, ...]) -> View:
         _level("bubble_thickness", bellows.bubble_thickness, left, up, "below"),
         _level("limits.cross_section_width", 2 * room, -room, limits.cross_section_height, "above"),
         _upright("limits.cross_section_height", limits.cross_section_height, room, 0.0),
-        _upright("bubble_height", bellows.bubble_height, 0.0, 0.0, "left"),
     )
     return View("Front, section through a bubble", loops, dimensions, frame=frame)
 

@@ -6,17 +6,16 @@ from collections.abc import Callable
 
 import numpy as np
 
-from printers.arrays import Flags
-from solver.arrays import Integers, Reals
+from printers.arrays import Flags, Floats, Ints
 
-Wanted = Callable[[Reals, Integers, Integers], Flags]
+Wanted = Callable[[Floats, Ints, Ints], Flags]
 """Of vertices (n, 3), triangles (m, 3) and their origins (m,): which edges (m, 3), each from a
 corner to the next, are to be halved."""
 
 
 def refined(
-    vertices: Reals, triangles: Integers, wanted: Wanted, passes: int
-) -> tuple[Reals, Integers, Integers]:
+    vertices: Floats, triangles: Ints, wanted: Wanted, passes: int
+) -> tuple[Floats, Ints, Ints]:
     """Vertices (n, 3), triangles (m, 3), and of which triangle each is a part (m,).
 
     Edges that are ``wanted`` are halved, in all triangles that share them, again and again until
@@ -37,13 +36,13 @@ def refined(
     return vertices, triangles, origin
 
 
-def edge_lengths(vertices: Reals, triangles: Integers) -> Reals:
+def edge_lengths(vertices: Floats, triangles: Ints) -> Floats:
     """Lengths (m, 3) of the edges from each corner to the next."""
     corners = vertices[triangles]
     return np.asarray(np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=2))
 
 
-def _edges(triangles: Integers) -> tuple[Integers, Integers]:
+def _edges(triangles: Ints) -> tuple[Ints, Ints]:
     """Edges (k, 2), and the numbers (m, 3) of those from each corner to the next."""
     ends = np.sort(np.stack([triangles, np.roll(triangles, -1, axis=1)], axis=2), axis=2)
     size = int(triangles.max()) + 1
@@ -52,7 +51,7 @@ def _edges(triangles: Integers) -> tuple[Integers, Integers]:
     return edges, numbers.reshape(triangles.shape)
 
 
-def _split(triangles: Integers, middles: Integers) -> tuple[Integers, Integers]:
+def _split(triangles: Ints, middles: Ints) -> tuple[Ints, Ints]:
     """Triangles cut at the middles (m, 3) of their edges, -1 where there is none."""
     marked = middles >= 0
     count = marked.sum(axis=1)

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bellows_design.reports.page.thickness.refining import edge_lengths, refined
-from printers.arrays import Flags
-from solver.arrays import Integers, Reals
+from printers.arrays import Flags, Floats, Ints
 
 if TYPE_CHECKING:
     from bellows_design.design.design import Design
@@ -47,9 +46,9 @@ class ThicknessMap:
     than ``reach``, or has nothing opposite, has this thickness; NaN is where nothing was measured.
     """
 
-    triangles: Integers
-    positions: Reals
-    thickness: Reals
+    triangles: Ints
+    positions: Floats
+    thickness: Floats
     reach: float
 
 
@@ -68,16 +67,16 @@ class _Survey:
 
     found: LocalThickness
     reach: float
-    patches: Integers
+    patches: Ints
     extent: float
 
     @staticmethod
-    def of(design: Design, mesh: ClosedMesh, patches: Integers) -> _Survey:
+    def of(design: Design, mesh: ClosedMesh, patches: Ints) -> _Survey:
         """Measured on the part's mesh."""
         extent = float(np.ptp(mesh.vertices, axis=0).max())
         return _Survey(*_measured(design, mesh), patches, extent)
 
-    def wanted(self, vertices: Reals, triangles: Integers, origin: Integers) -> Flags:
+    def wanted(self, vertices: Floats, triangles: Ints, origin: Ints) -> Flags:
         """Edges (m, 3) that are long, or along which the thickness changes much."""
         _, corners, values = self.values(vertices, triangles, origin)
         at = np.nan_to_num(values, nan=self.reach)[corners]
@@ -88,8 +87,8 @@ class _Survey:
         )
 
     def values(
-        self, vertices: Reals, triangles: Integers, origin: Integers
-    ) -> tuple[Reals, Integers, Reals]:
+        self, vertices: Floats, triangles: Ints, origin: Ints
+    ) -> tuple[Floats, Ints, Floats]:
         """Points (n, 3), one for each patch at a vertex, triangles (m, 3), and thicknesses (n,)."""
         size = int(self.patches.max()) + 1
         keys = triangles * size + self.patches[origin, None]
@@ -109,7 +108,7 @@ def _measured(design: Design, mesh: ClosedMesh) -> tuple[LocalThickness, float]:
     return part.thickness, profile.thickest_wall_of_lines
 
 
-def _at_points(found: LocalThickness, places: Reals, normals: Reals, reach: float) -> Reals:
+def _at_points(found: LocalThickness, places: Floats, normals: Floats, reach: float) -> Floats:
     """Thickness (n,) at points, of the nearest samples whose face looks the same way."""
     from scipy.spatial import KDTree
 
@@ -120,7 +119,7 @@ def _at_points(found: LocalThickness, places: Reals, normals: Reals, reach: floa
     return np.where(apart[:, 0] <= FAR, values, np.nan)
 
 
-def _without_slivers(vertices: Reals, triangles: Integers) -> tuple[Reals, Integers]:
+def _without_slivers(vertices: Floats, triangles: Ints) -> tuple[Floats, Ints]:
     """The mesh with points of one cell of a fine grid as one: for the eye alone."""
     _, first, numbers = np.unique(
         np.round(vertices / CELL), axis=0, return_index=True, return_inverse=True
@@ -130,13 +129,13 @@ def _without_slivers(vertices: Reals, triangles: Integers) -> tuple[Reals, Integ
     return vertices[first], joined[proper]
 
 
-def _patches(vertices: Reals, triangles: Integers) -> Integers:
+def _patches(vertices: Floats, triangles: Ints) -> Ints:
     """Number of the smooth patch of each triangle (m,)."""
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
     from trimesh.graph import face_adjacency
 
-    pairs = face_adjacency(triangles)
+    pairs = face_adjacency(triangles)  # type: ignore[no-untyped-call]
     across = _across(vertices[triangles])
     normals = across / np.maximum(np.linalg.norm(across, axis=1, keepdims=True), 1e-300)
     alike = np.einsum("ij,ij->i", normals[pairs[:, 0]], normals[pairs[:, 1]]) > SMOOTH
@@ -146,7 +145,7 @@ def _patches(vertices: Reals, triangles: Integers) -> Integers:
     return np.asarray(connected_components(joined, directed=False)[1])
 
 
-def _point_normals(places: Reals, triangles: Integers) -> Reals:
+def _point_normals(places: Floats, triangles: Ints) -> Floats:
     """Unit normals (n, 3) at points, the mean of their triangles' by area."""
     across, corners = np.repeat(_across(places[triangles]), 3, axis=0), triangles.ravel()
     count = len(places)
@@ -154,6 +153,6 @@ def _point_normals(places: Reals, triangles: Integers) -> Reals:
     return np.asarray(total / np.maximum(np.linalg.norm(total, axis=1, keepdims=True), 1e-300))
 
 
-def _across(corners: Reals) -> Reals:
+def _across(corners: Floats) -> Floats:
     """Outward normals (m, 3), twice as long as the triangles' areas."""
     return np.asarray(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]))
