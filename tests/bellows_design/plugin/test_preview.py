@@ -84,9 +84,8 @@ def test_the_page_can_be_saved(design: Design, tmp_path: Path) -> None:
 
 
 def test_the_extension_shows_designs_and_evaluations_by_themselves(design: Design) -> None:
-    """As ``%load_ext`` does it: IPython's own formatter is asked, where it is installed."""
-    core = pytest.importorskip("IPython.core.formatters")
-    formatter = core.HTMLFormatter()
+    """As ``%load_ext`` does it, with IPython's own formatter where it is installed."""
+    formatter = _formatter()
     shell: Any = SimpleNamespace(
         display_formatter=SimpleNamespace(formatters={"text/html": formatter})
     )
@@ -95,6 +94,24 @@ def test_the_extension_shows_designs_and_evaluations_by_themselves(design: Desig
     assert formatter(design) == preview(design)._repr_html_()
     unload_ipython_extension(shell)
     assert formatter(design) is None
+
+
+def _formatter() -> Any:
+    try:
+        from IPython.core.formatters import HTMLFormatter
+    except ImportError:
+        return _Formatter()
+    return HTMLFormatter()
+
+
+class _Formatter(dict[type, Any]):
+    """What of IPython's formatter an extension uses: functions by types."""
+
+    for_type = dict.__setitem__
+
+    def __call__(self, shown: object) -> str | None:
+        function = self.get(type(shown))
+        return None if function is None else function(shown)
 
 
 @pytest.mark.browser
