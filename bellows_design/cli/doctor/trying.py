@@ -35,7 +35,7 @@ def tried(names: Sequence[str], seconds: float = SECONDS) -> dict[str, Tried]:
 
 
 def _tried(name: str, seconds: float) -> Tried:
-    command = [sys.executable, "-m", "bellows_design.cli.doctor.probes", name]
+    command = [sys.executable, "-P", "-m", "bellows_design.cli.doctor.probes", name]
     settings = {**os.environ, "PYTHONWARNINGS": "ignore"}
     try:
         done = subprocess.run(
