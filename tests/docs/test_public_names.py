@@ -15,6 +15,7 @@ from typing import Any
 
 import cadquery as cq
 import pytest
+
 from generators.names import PACKAGES, public_names
 
 SLOW = {
