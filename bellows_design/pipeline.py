@@ -38,6 +38,14 @@ class Outcome:
         part: The solid as printed and its mesh.
         folder: Where the approved files are; None if the design is refused.
         withdrawn: Folder of an earlier approved export that this refusal took back.
+
+    Examples:
+        >>> from bellows_design import examine, load_design
+        >>> outcome = examine(load_design("prototype_1"))
+        >>> print(outcome.verdict.approved, outcome.folder)  # refused, and nothing is written
+        False None
+        >>> print(outcome.verdict.reasons[0].message)
+        bubble_thickness 1.5 mm is 3.75 lines of 0.4 mm, not a whole number
     """
 
     design: Design
@@ -97,6 +105,14 @@ def run(
         PrintersError: The leak test is required, and the slicer here cannot be used.
         MeshingError: No usable mesh, or none in time.
         OSError: The files could not be written; then nothing has changed.
+
+    Examples:
+        >>> from bellows_design import load_design, run
+        >>> outcome = run(load_design("finger"), "exports")
+        >>> outcome.verdict.approved
+        True
+        >>> {".stl", ".3mf", ".step"} <= {path.suffix for path in outcome.folder.iterdir()}
+        True
     """
     from bellows_design.export.approved import require_place
 
@@ -135,6 +151,12 @@ def examine(
             printer.
         PrintersError: The leak test is required, and the slicer here cannot be used.
         MeshingError: No usable mesh, or none in time.
+
+    Examples:
+        >>> from bellows_design import examine, load_design
+        >>> found = examine(load_design("prototype_1"))
+        >>> print(sorted({reason.rule for reason in found.verdict.reasons}))
+        ['max_von_mises', 'wall_multiple', 'wall_multiple_measured']
     """
     from bellows_design.approval import decide, refused_for_want_of_a_slicer, with_leak_test
     from bellows_design.leak_test.record import LeakTest, Unavailable
