@@ -138,7 +138,7 @@ class Evaluation(LoadedState):
         solver: Load steps, iterations and factorizations of all solves.
         seconds: Time spent on geometry, meshes and solves, s.
         path: Readings along the load path.
-        curve: Readings at the pressures asked for; the design's is the last.
+        curve: Readings at the pressures asked for.
         computation: The solutions these values were taken from.
         from_cache: When it was computed (UTC), where it comes from the store of results; empty
             where it was computed now.
