@@ -68,7 +68,7 @@ def memory_gib() -> float | None:
 
     Where the address space of the process is limited, what that leaves beside the libraries.
     """
-    known = [size for size in (_physical_memory(), *map(_limit_in, CONTROL_GROUPS)) if size]
+    known = [size for size in (physical_memory(), *map(limit_in, CONTROL_GROUPS)) if size]
     space = address_space_gib()
     known += [] if space is None else [max(0.0, space - ADDRESSES_OF_LIBRARIES)]
     return min(known, default=None)
@@ -107,7 +107,8 @@ def peak_memory_mib() -> float | None:
     return peak / MIB if sys.platform == "darwin" else peak * 1024 / MIB
 
 
-def _physical_memory() -> float | None:
+def physical_memory() -> float | None:
+    """Memory of this machine, GiB; None where unknown."""
     import psutil
 
     try:
@@ -116,7 +117,7 @@ def _physical_memory() -> float | None:
         return None
 
 
-def _limit_in(file: Path) -> float | None:
+def limit_in(file: Path) -> float | None:
     """The limit that a file of a control group states, GiB; None without one."""
     try:
         return int(file.read_text("ascii")) / GIB

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 LONGEST_QUOTE = 200
 """Characters."""
 
@@ -25,6 +27,14 @@ def quoted(value: object) -> str:
         return shortened(repr(value))
     except (ValueError, RecursionError):  # 4300 digits, 1000 levels
         return "a huge number" if isinstance(value, int) else "too much to show"
+
+
+def near(unknown: str, known: Iterable[str]) -> str:
+    """`; did you mean a?` for the known word that looks most like `unknown`; empty if none does."""
+    import difflib
+
+    found = difflib.get_close_matches(unknown[:LONGEST_QUOTE], list(known), n=1, cutoff=0.6)
+    return f"; did you mean {found[0]}?" if found else ""
 
 
 def shortened(text: str) -> str:

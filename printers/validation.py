@@ -7,7 +7,7 @@ from typing import Any
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
-from printers.errors import PrintersError, quoted
+from printers.errors import PrintersError, near, quoted
 from printers.toml_errors import value_hint
 
 
@@ -31,8 +31,8 @@ def _sentence(problem: Mapping[str, Any], record: type[BaseModel]) -> str:
     key = ".".join(str(step) for step in problem["loc"])
     if problem["type"] == "extra_forbidden":
         home = _home(key, record)
-        known = f"it belongs into [{home}]" if home else f"known: {', '.join(record.model_fields)}"
-        return f"unknown key {quoted(key)}; {known}"
+        known = near(key, record.model_fields) or f"; known: {', '.join(record.model_fields)}"
+        return f"unknown key {quoted(key)}{f'; it belongs into [{home}]' if home else known}"
     if problem["type"] == "missing":
         return f"key {key!r} is missing"
     text = str(problem["msg"]).removeprefix("Value error, ")

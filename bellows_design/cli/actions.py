@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from bellows_design.cli.answer import BAD_INPUT, DONE, NOT_SOLVED, REFUSED, Answer, unwritten
+from bellows_design.cli.layout.said import stated
 from bellows_design.cli.output_files import require_file, require_folder, require_plot
 from bellows_design.cli.surroundings.environment import require_working_folder
 from bellows_design.cli.surroundings.memory import (
@@ -19,37 +20,13 @@ from bellows_design.cli.surroundings.memory import (
     require_address_space,
 )
 from bellows_design.cli.surroundings.solving import solving, usual_store
-from bellows_design.errors import BellowsError, DesignError
-from bellows_design.validation.quoting import quoted
+from bellows_design.errors import BellowsError
 
 if TYPE_CHECKING:
     from bellows_design.analysis.evaluation import Evaluation
     from bellows_design.cli.options import BudgetOptions, DesignOptions
-    from bellows_design.cli.templates import Kind
     from bellows_design.neighbours.sensitivities import Sensitivities
     from bellows_design.progress import Progress
-
-
-def list_designs() -> Answer:
-    """Names and descriptions of the shipped designs."""
-    from bellows_design.design.shipped import load_design, shipped_designs
-
-    designs = {name: load_design(name).description for name in shipped_designs()}
-    return Answer({"designs": designs}, [f"{name:22} {text}" for name, text in designs.items()])
-
-
-def init(kind: Kind, file: Path, force: bool) -> Answer:
-    """Write a commented file to start from; replace another only if ``force`` says so."""
-    from bellows_design.cli.templates import name_from, template
-    from bellows_design.files.atomic import replacing
-
-    require_file(file, ".toml")
-    if file.exists() and not force:
-        raise DesignError(f"{quoted(str(file))} is there already; --force replaces it.")
-    text = template(kind, name_from(file.stem))
-    with replacing(file) as temporary:
-        temporary.write_text(text, "utf-8")
-    return Answer({"kind": kind.value, "file": str(file)}, [f"{file}: a {kind.value}"])
 
 
 def design(options: DesignOptions, output: Path, with_settings: bool = False) -> Answer:
@@ -207,7 +184,7 @@ def benchmark(
     names = models or benchmarks.DEFAULT_MODELS
     with solving() as progress:
         study = benchmarks.study(chosen, names, meshes, progress, budget=budget)
-    content = study.to_dict()
+    content = stated(study.to_dict())
     failed = unwritten(
         *(() if output is None else (lambda: write_json(content, output),)),
         *(() if plot is None else (lambda: plot_benchmark(study, plot),)),

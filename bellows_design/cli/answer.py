@@ -13,14 +13,20 @@ import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import typer
 
 from bellows_design.cli.early_signals import ended_by
 from bellows_design.cli.interruption import ended_in_time, interruption_in, raising_signals
+from bellows_design.cli.layout.asked import command_asked
+from bellows_design.cli.layout.said import error_content, print_error, print_json, stated
+from bellows_design.cli.surroundings.courses import courses_of, learn
+from bellows_design.cli.terminal.console import print_for_people
 from bellows_design.errors import BellowsError, ClusterError, UnreachedError
 from bellows_design.files.errors import CannotWrite
+from bellows_design.progress.shown import Shown, shown_as
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -37,8 +43,9 @@ whose objects all stay."""
 CLEARING_UP = {
     "solver.meshing.process": "kill",
     "bellows_design.files.atomic": "remove_unfinished",
+    "bellows_design.progress.bar": "leave_terminal",
 }
-"""Modules, and their functions that remove what is unfinished when a process ends at once."""
+"""Modules, and their functions that clear up what is unfinished when a process ends at once."""
 
 
 @dataclass(frozen=True)
@@ -46,23 +53,28 @@ class Answer:
     """What a command found: for a program, for a person, and as an exit status.
 
     ``unwritten`` is why a file that was to hold it besides does not; the status is that of an error
-    then.
+    then. ``states_schema``: whether JSON begins with the name of the answer's schema.
     """
 
     content: dict[str, Any]
     text: Sequence[RenderableType]
     status: int = DONE
     unwritten: CannotWrite | None = None
+    states_schema: bool = True
 
 
-def answer(work: Callable[[], Answer], as_json: bool) -> None:
-    """Do ``work`` and print its answer, or one sentence on why there is none; then exit."""
+def answer(work: Callable[[], Answer], as_json: bool, quiet: bool = False) -> None:
+    """Do ``work`` and print its answer, or one sentence on why there is none; then exit.
+
+    ``quiet``: without progress and notes on the way.
+    """
     try:
         with (
             raising_signals() as signals,
             stdout_is_stderr() as stdout,
             ended_in_time(lambda number: _leave(number, stdout if as_json else None)),
             rare_garbage_collection(),
+            shown_as(_progress(quiet)),
         ):
             result = work()
     except BaseException as error:
@@ -71,18 +83,22 @@ def answer(work: Callable[[], Answer], as_json: bool) -> None:
         if os.environ.get(TRACEBACK):
             _print_traceback(error)
         sentence, status = ended_by(signals.received[0]) if signals.received else explained(error)
-        typer.echo(f"bellows: {sentence}", err=True)
-        if as_json:
-            _print_json({"error": sentence, "exit_status": status})
+        print_error(sentence, status, as_json)
         raise typer.Exit(status) from None
     if as_json:
-        _print_json(result.content)
+        print_json(stated(result.content) if result.states_schema else result.content)
     else:
-        _print_text(result.text)
+        print_for_people(result.text)
     if result.unwritten is not None:
         typer.echo(f"bellows: {result.unwritten}.", err=True)
         raise typer.Exit(BAD_INPUT)
     raise typer.Exit(result.status)
+
+
+def _progress(quiet: bool) -> Shown:
+    """How the progress of the command that was typed is shown."""
+    command = command_asked()
+    return Shown(quiet, partial(courses_of, command), partial(learn, command))
 
 
 def unwritten(*writers: Callable[[], None]) -> CannotWrite | None:
@@ -193,7 +209,7 @@ def _leave(number: int, json_to: int | None) -> None:
         os.write(2, f"bellows: {sentence}\n".encode())
     with suppress(OSError):
         if json_to is not None:
-            content = {"error": sentence, "exit_status": status}
+            content = error_content(sentence, status)
             os.write(json_to, json.dumps(content, indent=2).encode() + b"\n")
     os._exit(status)
 
@@ -202,30 +218,3 @@ def _print_traceback(error: BaseException) -> None:
     import traceback
 
     typer.echo("".join(traceback.format_exception(error)), err=True)
-
-
-def _print_json(content: dict[str, Any]) -> None:
-    from bellows_design.files.json_files import json_text
-
-    text = json_text(content)
-    try:
-        text.encode(sys.stdout.encoding)
-    except UnicodeEncodeError:
-        text = json_text(content, only_ascii=True)
-    typer.echo(text, nl=False)
-
-
-def _print_text(lines: Sequence[RenderableType]) -> None:
-    from rich.console import Console
-
-    _tolerate_any_terminal()
-    console = Console(highlight=False, markup=False, soft_wrap=True)
-    for line in lines:
-        console.print(line)
-
-
-def _tolerate_any_terminal() -> None:
-    """Where the terminal's encoding lacks a character (° µ Ć), print ? rather than fail."""
-    reconfigure = getattr(sys.stdout, "reconfigure", None)
-    if reconfigure is not None:
-        reconfigure(errors="replace")

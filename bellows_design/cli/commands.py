@@ -29,7 +29,11 @@ from bellows_design.cli.checking.options import (
     Up,
 )
 from bellows_design.cli.comparing.command import compare
+from bellows_design.cli.completion.options import complete_schema, complete_source
 from bellows_design.cli.force.command import force
+from bellows_design.cli.layout import panels
+from bellows_design.cli.layout.group import Commands
+from bellows_design.cli.layout.panels import examples
 from bellows_design.cli.options import (
     AcceptPoorFit,
     Accuracy,
@@ -55,6 +59,7 @@ from bellows_design.cli.options import (
     Pressure,
     Printer,
     Quick,
+    Quiet,
     Settings,
     Skip,
     TimeLimit,
@@ -65,22 +70,47 @@ from bellows_design.cli.options import (
     WithSettings,
     YieldStrength,
 )
+from bellows_design.cli.starting.kinds import Kind, Listed
 from bellows_design.cli.studies.optimize_command import optimize
 from bellows_design.cli.study import study
-from bellows_design.cli.templates import Kind
 from bellows_design.materials.laws import BEST
 
 app = typer.Typer(
     name="bellows",
+    cls=Commands,
     help="From the twelve numbers of a soft bellows actuator to an approved, printable STL.",
-    add_completion=False,
+    epilog=examples(
+        "bellows list",
+        "bellows init design my_finger.toml",
+        "bellows run my_finger.toml",
+        "bellows evaluate finger --set bubble_thickness=1.2 --pressure 0.02:0.1:0.02",
+    ),
     no_args_is_help=True,
     pretty_exceptions_enable=False,
 )
-app.add_typer(study, name="study")
-app.command()(optimize)
-app.command()(force)
-app.command()(compare)
+app.add_typer(study, name="study", rich_help_panel=panels.STUDY)
+app.command(
+    rich_help_panel=panels.STUDY,
+    epilog=examples(
+        "bellows optimize finger --minutes 30",
+        "bellows optimize finger --goal stress --angle 200 --bubbles 8-10 -o soft_finger",
+    ),
+)(optimize)
+app.command(
+    rich_help_panel=panels.COMPUTE,
+    epilog=examples(
+        "bellows force finger",
+        "bellows force finger --scene free --pressure 0.02:0.1:0.02",
+        "bellows force finger --by-distance --plot force.png",
+    ),
+)(force)
+app.command(
+    rich_help_panel=panels.COMPUTE,
+    epilog=examples(
+        "bellows compare finger print.csv --plot print.png",
+        "bellows compare finger print.csv --write-material my_print.toml",
+    ),
+)(compare)
 
 
 @app.callback(invoke_without_command=True)
@@ -98,28 +128,68 @@ def _root(
         raise typer.Exit(2)
 
 
-@app.command("list")
-def list_designs(as_json: AsJson = False) -> None:
-    """Name the shipped designs."""
-    answer(actions.list_designs, as_json)
+@app.command(
+    "list",
+    rich_help_panel=panels.START,
+    epilog=examples("bellows list", "bellows list materials", "bellows list keys"),
+)
+def list_known(
+    what: Annotated[
+        Listed,
+        typer.Argument(
+            metavar="WHAT", help="designs, materials, printers, filaments, scenes, keys or all."
+        ),
+    ] = Listed.DESIGNS,
+    as_json: AsJson = False,
+) -> None:
+    """Name what ships: designs, materials, printers, filaments, scenes."""
+    from bellows_design.cli.starting.listing import list_known
+
+    answer(lambda: list_known(what), as_json)
 
 
-@app.command()
+@app.command(
+    rich_help_panel=panels.START,
+    epilog=examples(
+        "bellows init design my_finger.toml",
+        "bellows init design my_finger.toml --from prototype_2",
+        "bellows init printer my_printer.toml --from prusa_mk4",
+    ),
+)
 def init(
     kind: Annotated[
-        Kind, typer.Argument(metavar="KIND", help="design, printer, material or body.")
+        Kind,
+        typer.Argument(metavar="KIND", help="design, scene, printer, filament, material or body."),
     ],
     file: Annotated[Path, typer.Argument(metavar="FILE", help="File to write: .toml.")],
+    source: Annotated[
+        str | None,
+        typer.Option(
+            "--from",
+            metavar="NAME",
+            help="Begin with the values of that design, printer …: a name, or a TOML file.",
+            autocompletion=complete_source,
+        ),
+    ] = None,
     force: Annotated[
         bool, typer.Option("--force", help="Replace the file if it is there.")
     ] = False,
     as_json: AsJson = False,
 ) -> None:
-    """Write a commented design, printer, material or own body to start from."""
-    answer(lambda: actions.init(kind, file, force), as_json)
+    """Write a commented design, printer, material … to start from."""
+    from bellows_design.cli.starting.init import init as write
+
+    answer(lambda: write(kind, file, force, source), as_json)
 
 
-@app.command()
+@app.command(
+    rich_help_panel=panels.PRINT,
+    epilog=examples(
+        "bellows design finger -o finger.stl",
+        "bellows design finger -o finger.3mf --with-settings",
+        "bellows design my_finger.toml -o finger.step --set bubble_width=18",
+    ),
+)
 def design(
     name: DesignName,
     output: Annotated[
@@ -127,14 +197,22 @@ def design(
     ],
     settings: Settings = None,
     with_settings: WithSettings = False,
+    quiet: Quiet = False,
     as_json: AsJson = False,
 ) -> None:
     """Build the printed part and write it as STL, 3MF or STEP."""
     options = DesignOptions(name, tuple(settings or ()))
-    answer(lambda: actions.design(options, output, with_settings), as_json)
+    answer(lambda: actions.design(options, output, with_settings), as_json, quiet)
 
 
-@app.command()
+@app.command(
+    rich_help_panel=panels.PRINT,
+    epilog=examples(
+        "bellows check my_finger.toml --printer bambu_a1",
+        "bellows check gripper.step --orientation auto",
+        "bellows check gripper.stl --opening 0,12.5,8 --slice --picture leak.png",
+    ),
+)
 def check(
     name: Checked,
     printer: Printer = None,
@@ -147,6 +225,7 @@ def check(
     picture: Picture = None,
     keep_gcode: KeepGcode = None,
     settings: Settings = None,
+    quiet: Quiet = False,
     as_json: AsJson = False,
 ) -> None:
     """Check a design, or a part of any program, against the rules of a printer."""
@@ -156,10 +235,17 @@ def check(
         name, tuple(settings or ()), printer, filament, tuple(opening or ()), up, orientation,
         slice_it, require_slicer, picture, keep_gcode,
     )  # fmt: skip
-    answer(lambda: check_part(options), as_json)
+    answer(lambda: check_part(options), as_json, quiet)
 
 
-@app.command()
+@app.command(
+    rich_help_panel=panels.COMPUTE,
+    epilog=examples(
+        "bellows evaluate finger",
+        "bellows evaluate finger --pressure 0.02:0.1:0.02 --vtu bent.vtu",
+        "bellows evaluate finger --set bubble_thickness=1.2 --sensitivities",
+    ),
+)
 def evaluate(
     name: DesignName,
     model: Annotated[ModelName, typer.Option(help="auto: the smallest model that answers.")] = (
@@ -174,16 +260,23 @@ def evaluate(
     mesh_seconds: MeshSeconds = None,
     seconds: TimeLimit = None,
     no_cache: NoCache = False,
+    quiet: Quiet = False,
     as_json: AsJson = False,
 ) -> None:
     """Compute bending angle and stress under pressure."""
     options = DesignOptions(name, tuple(settings or ()))
     limits = BudgetOptions(memory, mesh_seconds, seconds)
     asked = (options, model.value, pressure, accuracy, vtu, limits)
-    answer(lambda: actions.evaluate(*asked, not no_cache, sensitivities), as_json)
+    answer(lambda: actions.evaluate(*asked, not no_cache, sensitivities), as_json, quiet)
 
 
-@app.command()
+@app.command(
+    rich_help_panel=panels.PRINT,
+    epilog=examples(
+        "bellows run finger",
+        "bellows run my_finger.toml --printer my_printer.toml --output parts",
+    ),
+)
 def run(
     name: DesignName,
     output: Annotated[Path, typer.Option(help="Folder of the approved models.")] = Path("exports"),
@@ -193,15 +286,22 @@ def run(
     mesh_seconds: MeshSeconds = None,
     seconds: TimeLimit = None,
     no_cache: NoCache = False,
+    quiet: Quiet = False,
     as_json: AsJson = False,
 ) -> None:
     """Design, check, evaluate, decide, and export what is approved."""
     options = DesignOptions(name, tuple(settings or ()), printer)
     limits = BudgetOptions(memory, mesh_seconds, seconds)
-    answer(lambda: actions.run(options, output, limits, not no_cache), as_json)
+    answer(lambda: actions.run(options, output, limits, not no_cache), as_json, quiet)
 
 
-@app.command()
+@app.command(
+    rich_help_panel=panels.PRINT,
+    epilog=examples(
+        "bellows verify exports/finger",
+        "bellows verify exports/finger --quick",
+    ),
+)
 def verify(
     folder: ExportFolder,
     quick: Quick = False,
@@ -209,14 +309,20 @@ def verify(
     mesh_seconds: MeshSeconds = None,
     seconds: TimeLimit = None,
     no_cache: NoCache = False,
+    quiet: Quiet = False,
     as_json: AsJson = False,
 ) -> None:
     """Check every file of an export, and whether it would be approved again."""
     limits = BudgetOptions(memory, mesh_seconds, seconds)
-    answer(lambda: actions.verify(folder, quick, limits, not no_cache), as_json)
+    answer(lambda: actions.verify(folder, quick, limits, not no_cache), as_json, quiet)
 
 
-@app.command()
+@app.command(
+    rich_help_panel=panels.STUDY,
+    epilog=examples(
+        "bellows benchmark prototype_1 --plot speed.png",
+    ),
+)
 def benchmark(
     name: DesignName = "prototype_1",
     model: Annotated[
@@ -231,15 +337,52 @@ def benchmark(
     settings: Settings = None,
     memory: Memory = None,
     mesh_seconds: MeshSeconds = None,
+    quiet: Quiet = False,
     as_json: AsJson = False,
 ) -> None:
     """Measure speed against error: models by meshes, against converged values."""
     options = DesignOptions(name, tuple(settings or ()))
     models, limits = [each.value for each in model or ()], BudgetOptions(memory, mesh_seconds)
-    answer(lambda: actions.benchmark(options, models, meshes, output, plot, limits), as_json)
+    answer(lambda: actions.benchmark(options, models, meshes, output, plot, limits), as_json, quiet)
 
 
-@app.command()
+@app.command(
+    rich_help_panel=panels.HOUSEKEEPING, epilog=examples("bellows doctor", "bellows doctor --json")
+)
+def doctor(as_json: AsJson = False) -> None:
+    """Say what is installed and works here, and how to mend what does not."""
+    from bellows_design.cli.doctor.answer import doctor as examine
+
+    answer(examine, as_json)
+
+
+@app.command(
+    rich_help_panel=panels.HOUSEKEEPING,
+    epilog=examples("bellows schema", "bellows schema evaluate", "bellows schema study sweep"),
+)
+def schema(
+    command: Annotated[
+        list[str] | None,
+        typer.Argument(
+            metavar="COMMAND",
+            help="A command, error, or a file of an export: manifest.json.",
+            autocompletion=complete_schema,
+        ),
+    ] = None,
+) -> None:
+    """Print the JSON Schema of what a command answers with --json; without one name them all."""
+    from bellows_design.cli.starting.schemas import schema as show
+
+    answer(lambda: show(command or ()), bool(command))
+
+
+@app.command(
+    rich_help_panel=panels.HOUSEKEEPING,
+    epilog=examples(
+        "bellows cache",
+        "bellows cache --clear",
+    ),
+)
 def cache(
     clear: Annotated[bool, typer.Option("--clear", help="Remove all of it.")] = False,
     as_json: AsJson = False,
@@ -248,7 +391,13 @@ def cache(
     answer(lambda: actions.cache(clear), as_json)
 
 
-@app.command()
+@app.command(
+    rich_help_panel=panels.COMPUTE,
+    epilog=examples(
+        "bellows fit tensile.csv --plot fit.png",
+        "bellows fit a.csv b.csv -o my_rubber.toml --yield-strength 4",
+    ),
+)
 def fit(
     data: FitData,
     model: FitModelName = BEST,

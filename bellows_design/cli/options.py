@@ -8,6 +8,9 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from bellows_design.cli.completion.names import designs, exports, printers
+from bellows_design.cli.completion.options import complete_model, complete_setting
+from bellows_design.cli.layout import panels
 from bellows_design.materials.laws import FIT_CHOICES
 
 if TYPE_CHECKING:
@@ -16,29 +19,64 @@ if TYPE_CHECKING:
 
 DesignName = Annotated[
     str,
-    typer.Argument(metavar="DESIGN", help="A shipped design (see bellows list) or a TOML file."),
+    typer.Argument(
+        metavar="DESIGN",
+        autocompletion=designs,
+        help="A shipped design (see bellows list) or a TOML file.",
+    ),
 ]
 Settings = Annotated[
     list[str] | None,
     typer.Option(
         "--set",
         metavar="KEY=VALUE",
+        autocompletion=complete_setting,
         help="Change one value: bubble_thickness=1.2, indent.depth=0.4. Repeatable.",
+        rich_help_panel=panels.DESIGN,
     ),
 ]
 ExportFolder = Annotated[
-    Path, typer.Argument(metavar="FOLDER", help="Folder of an export, such as exports/finger.")
+    Path,
+    typer.Argument(
+        metavar="FOLDER",
+        autocompletion=exports,
+        help="Folder of an export, such as exports/finger.",
+    ),
 ]
 Quick = Annotated[
     bool, typer.Option("--quick", help="Leave out evaluation and leak test, and say so.")
 ]
 WithSettings = Annotated[
     bool,
-    typer.Option("--with-settings", help="A .3mf that carries the printer's settings as well."),
+    typer.Option(
+        "--with-settings",
+        help="A .3mf that carries the printer's settings as well.",
+        rich_help_panel=panels.FILES,
+    ),
 ]
-AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object instead of text.")]
+Quiet = Annotated[
+    bool,
+    typer.Option(
+        "--quiet",
+        "-q",
+        help="No progress and no notes on stderr, only errors.",
+        rich_help_panel=panels.SPEECH,
+    ),
+]
+AsJson = Annotated[
+    bool,
+    typer.Option(
+        "--json", help="Print one JSON object instead of text.", rich_help_panel=panels.SPEECH
+    ),
+]
 Printer = Annotated[
-    str | None, typer.Option(help="Printer profile, or a TOML file, instead of the design's.")
+    str | None,
+    typer.Option(
+        metavar="NAME",
+        autocompletion=printers,
+        help="Printer profile, or a TOML file, instead of the design's.",
+        rich_help_panel=panels.DESIGN,
+    ),
 ]
 Pressure = Annotated[
     str | None,
@@ -51,7 +89,12 @@ Accuracy = Annotated[
     typer.Option(metavar="PERCENT", help="Refine until the estimated errors are this small."),
 ]
 Vtu = Annotated[
-    Path | None, typer.Option(help="Also write the deformed mesh, for ParaView (.vtu).")
+    Path | None,
+    typer.Option(
+        metavar="FILE",
+        help="Also write the deformed mesh, for ParaView (.vtu).",
+        rich_help_panel=panels.FILES,
+    ),
 ]
 Memory = Annotated[
     float | None,
@@ -59,11 +102,16 @@ Memory = Annotated[
         metavar="GIB",
         help="Memory to take at most; larger meshes are refused. Without it three quarters of the "
         "machine's, at most 4.",
+        rich_help_panel=panels.LIMITS,
     ),
 ]
 MeshSeconds = Annotated[
     float | None,
-    typer.Option(metavar="S", help="Time limit of each mesh, in seconds; without it 120."),
+    typer.Option(
+        metavar="S",
+        help="Time limit of each mesh, in seconds; without it 120.",
+        rich_help_panel=panels.LIMITS,
+    ),
 ]
 TimeLimit = Annotated[
     float | None,
@@ -72,6 +120,7 @@ TimeLimit = Annotated[
         metavar="S",
         help="Time limit of the evaluation, in seconds; without it 240. It then ends with the "
         "last good state, and says so.",
+        rich_help_panel=panels.LIMITS,
     ),
 ]
 Derivatives = Annotated[
@@ -80,7 +129,11 @@ Derivatives = Annotated[
 ]
 NoCache = Annotated[
     bool,
-    typer.Option("--no-cache", help="Compute anew, and keep nothing: see bellows cache."),
+    typer.Option(
+        "--no-cache",
+        help="Compute anew, and keep nothing: see bellows cache.",
+        rich_help_panel=panels.LIMITS,
+    ),
 ]
 Meshes = Annotated[
     int | None,
@@ -95,10 +148,18 @@ FitData = Annotated[
     ),
 ]
 FitModelName = Annotated[
-    str, typer.Option(help=f"{', '.join(FIT_CHOICES[:-1])} or {FIT_CHOICES[-1]}.")
+    str,
+    typer.Option(
+        metavar="LAW",
+        autocompletion=complete_model,
+        help=f"{', '.join(FIT_CHOICES[:-1])} or {FIT_CHOICES[-1]}.",
+    ),
 ]
 YieldStrength = Annotated[
-    float | None, typer.Option(metavar="MPA", help="Yield strength of that material.")
+    float | None,
+    typer.Option(
+        metavar="MPA", help="Yield strength of that material.", rich_help_panel=panels.MATERIAL
+    ),
 ]
 ElongationAtBreak = Annotated[
     float | None,
@@ -106,12 +167,15 @@ ElongationAtBreak = Annotated[
         metavar="PERCENT",
         help="Elongation at break of that material, per cent (400, not 4): strains beyond are "
         "refused.",
+        rich_help_panel=panels.MATERIAL,
     ),
 ]
 AcceptPoorFit = Annotated[
     bool,
     typer.Option(
-        "--accept-poor-fit", help="Take a poor fit for a material, which keeps a warning."
+        "--accept-poor-fit",
+        help="Take a poor fit for a material, which keeps a warning.",
+        rich_help_panel=panels.MATERIAL,
     ),
 ]
 Columns = Annotated[
@@ -120,6 +184,7 @@ Columns = Annotated[
         metavar="NAMES",
         help="Names of the columns instead of the header's: strain_percent,stress_mpa, with - for "
         "one to leave out; or by number: strain=2,stress_mpa=4.",
+        rich_help_panel=panels.READING,
     ),
 ]
 Units = Annotated[
@@ -128,21 +193,30 @@ Units = Annotated[
         metavar="UNITS",
         help="Units instead of the header's: stress=kPa (MPa, N/mm², psi, kgf/cm² …), strain=% "
         "(1 for fractions), force=N, extension=mm.",
+        rich_help_panel=panels.READING,
     ),
 ]
 Skip = Annotated[
     str | None,
     typer.Option(
-        metavar="LINES", help="Lines to leave out: 4 the first four, 3-5, 70- to the end."
+        metavar="LINES",
+        help="Lines to leave out: 4 the first four, 3-5, 70- to the end.",
+        rich_help_panel=panels.READING,
     ),
 ]
-Decimal = Annotated[str | None, typer.Option(metavar="SIGN", help="Decimal sign: point or comma.")]
+Decimal = Annotated[
+    str | None,
+    typer.Option(
+        metavar="SIGN", help="Decimal sign: point or comma.", rich_help_panel=panels.READING
+    ),
+]
 Branch = Annotated[
     str | None,
     typer.Option(
         metavar="BRANCH",
         help="Of a test that goes to and fro: first (loading for the first time) or last; all for "
         "all points; specimens where each return is a new specimen.",
+        rich_help_panel=panels.READING,
     ),
 ]
 Keep = Annotated[
@@ -151,21 +225,40 @@ Keep = Annotated[
         metavar="WHAT",
         help="zero: take strains as they are, without looking for preload and slack; break: take "
         "points after break as well. Repeatable.",
+        rich_help_panel=panels.READING,
     ),
 ]
 TrueStress = Annotated[
-    bool, typer.Option("--true-stress", help="The stress is over present, not initial, area.")
+    bool,
+    typer.Option(
+        "--true-stress",
+        help="The stress is over present, not initial, area.",
+        rich_help_panel=panels.READING,
+    ),
 ]
 TrueStrain = Annotated[
-    bool, typer.Option("--true-strain", help="The strain is logarithmic, not nominal.")
+    bool,
+    typer.Option(
+        "--true-strain",
+        help="The strain is logarithmic, not nominal.",
+        rich_help_panel=panels.READING,
+    ),
 ]
 Area = Annotated[
     float | None,
-    typer.Option(metavar="MM2", help="Initial area that a force is divided by, mm²."),
+    typer.Option(
+        metavar="MM2",
+        help="Initial area that a force is divided by, mm².",
+        rich_help_panel=panels.READING,
+    ),
 ]
 GaugeLength = Annotated[
     float | None,
-    typer.Option(metavar="MM", help="Initial length that an extension is divided by, mm."),
+    typer.Option(
+        metavar="MM",
+        help="Initial length that an extension is divided by, mm.",
+        rich_help_panel=panels.READING,
+    ),
 ]
 
 

@@ -17,7 +17,8 @@ def require_file(path: Path | None, suffix: str) -> None:
     if path is None:
         return
     if path.suffix.lower() != suffix:
-        raise DesignError(f"{quoted(str(path))} must end in {suffix}.")
+        hint = f"; did you mean {quoted(str(path.with_suffix(suffix)))}?" if path.name else "."
+        raise DesignError(f"{quoted(str(path))} must end in {suffix}{hint}")
     require_folder(path)
 
 

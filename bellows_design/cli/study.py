@@ -12,12 +12,15 @@ from typing import Annotated
 import typer
 
 from bellows_design.cli.answer import answer
+from bellows_design.cli.layout import panels
+from bellows_design.cli.layout.group import Commands
 from bellows_design.cli.options import (
     Accuracy,
     AsJson,
     DesignName,
     DesignOptions,
     NoCache,
+    Quiet,
     Settings,
 )
 from bellows_design.cli.studies.options import Scheduler, Workers
@@ -32,23 +35,38 @@ class Sample(StrEnum):
 
 
 study = typer.Typer(
+    cls=Commands,
     help="Studies: many evaluations that answer one question.",
     no_args_is_help=True,
     pretty_exceptions_enable=False,
 )
 
-Output = Annotated[Path | None, typer.Option(help="Also write everything as .json.")]
-Plot = Annotated[Path | None, typer.Option(help="Also draw it (.png); needs matplotlib.")]
+Output = Annotated[
+    Path | None,
+    typer.Option(
+        metavar="FILE", help="Also write everything as .json.", rich_help_panel=panels.FILES
+    ),
+]
+Plot = Annotated[
+    Path | None,
+    typer.Option(
+        metavar="FILE", help="Also draw it (.png); needs matplotlib.", rich_help_panel=panels.FILES
+    ),
+]
 
 
 @study.command()
 def paper(
-    output: Output = None, plot: Plot = None, no_cache: NoCache = False, as_json: AsJson = False
+    output: Output = None,
+    plot: Plot = None,
+    no_cache: NoCache = False,
+    quiet: Quiet = False,
+    as_json: AsJson = False,
 ) -> None:
     """Compute every design of the paper and compare."""
     from bellows_design.cli.studies.paper import paper as compare
 
-    answer(lambda: compare(output, plot, not no_cache), as_json)
+    answer(lambda: compare(output, plot, not no_cache), as_json, quiet)
 
 
 @study.command()
@@ -76,6 +94,7 @@ def sensitivity(
     output: Output = None,
     plot: Plot = None,
     no_cache: NoCache = False,
+    quiet: Quiet = False,
     as_json: AsJson = False,
 ) -> None:
     """How angle, stress and volume depend on every number, and within tolerances."""
@@ -83,7 +102,7 @@ def sensitivity(
 
     options = DesignOptions(name, tuple(settings or ()))
     asked = (percent, samples, wall, modulus, seed, not no_sobol, output, plot, not no_cache)
-    answer(lambda: examine(options, *asked), as_json)
+    answer(lambda: examine(options, *asked), as_json, quiet)
 
 
 @study.command()
@@ -116,11 +135,15 @@ def sweep(
     retry_failed: Annotated[
         bool, typer.Option("--retry-failed", help="Ask again what failed.")
     ] = False,
-    csv: Annotated[Path | None, typer.Option(help="Also write all results as .csv.")] = None,
+    csv: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Also write all results as .csv.")
+    ] = None,
     parquet: Annotated[
-        Path | None, typer.Option(help="Also write them as .parquet; needs pyarrow.")
+        Path | None,
+        typer.Option(metavar="FILE", help="Also write them as .parquet; needs pyarrow."),
     ] = None,
     settings: Settings = None,
+    quiet: Quiet = False,
     as_json: AsJson = False,
 ) -> None:
     """Evaluate many designs around one: a grid or a sample."""
@@ -132,7 +155,9 @@ def sweep(
         ordinary, accuracy,
     )  # fmt: skip
     answer(
-        lambda: look(options, Files(file, csv, parquet), workers, scheduler, retry_failed), as_json
+        lambda: look(options, Files(file, csv, parquet), workers, scheduler, retry_failed),
+        as_json,
+        quiet,
     )
 
 
@@ -147,6 +172,7 @@ def indent(
     output: Output = None,
     plot: Plot = None,
     no_cache: NoCache = False,
+    quiet: Quiet = False,
     as_json: AsJson = False,
 ) -> None:
     """Search for the indent that does what the paper's did, and for the one of least stress."""
@@ -155,4 +181,4 @@ def indent(
 
     options = DesignOptions(name, tuple(settings or ()))
     how = IndentOptions(points, accuracy, not no_cache)
-    answer(lambda: search(options, how, output, plot), as_json)
+    answer(lambda: search(options, how, output, plot), as_json, quiet)

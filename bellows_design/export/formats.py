@@ -18,7 +18,7 @@ from bellows_design.export.read_back import require_same
 from bellows_design.export.step_file import step_file
 from bellows_design.export.three_mf import three_mf
 from bellows_design.files.atomic import replacing
-from bellows_design.validation.quoting import quoted
+from bellows_design.validation.quoting import near, quoted
 
 Writer = Callable[[Part], bytes]
 """Makes the content of a file."""
@@ -56,7 +56,8 @@ def writer_for(path: Path) -> Writer:
     writer = WRITERS.get(path.suffix.lower())
     if writer is None:
         raise DesignError(
-            f"{quoted(str(path))} must end in {', '.join(WRITERS)}: the suffix chooses the format."
+            f"{quoted(str(path))} must end in {', '.join(WRITERS)}: the suffix chooses the format"
+            f"{near(path.suffix.lower(), WRITERS) or '.'}"
         )
     return writer
 

@@ -12,7 +12,7 @@ import stat
 from pathlib import Path
 
 from bellows_design.errors import DesignError
-from bellows_design.validation.quoting import quoted_path
+from bellows_design.validation.quoting import near_file, quoted_path
 
 PIECE = 2**20
 """Bytes that are read at once."""
@@ -33,7 +33,7 @@ def read_file(path: Path, noun: str, most: int, shown: str = "") -> bytes:
         finally:
             os.close(descriptor)
     except FileNotFoundError:
-        raise DesignError(f"there is no file {given}.") from None
+        raise DesignError(f"there is no file {given}{near_file(path) or '.'}") from None
     except (OSError, ValueError) as error:  # ValueError: a null byte in the path
         if isinstance(error, DesignError):
             raise

@@ -146,7 +146,7 @@ def compared(
 
     evaluations = []
     for number, result in enumerate(results, 1):
-        progress.note(f"{number} of {len(results)}: {result.label}")
+        progress.note(f"design {number} of {len(results)}: {result.label}")
         evaluations.append(evaluated(result.build(), progress=progress, budget=budget, store=store))
     reference = evaluations[0]
     rows = (Row(*pair, reference) for pair in zip(results, evaluations, strict=True))

@@ -19,6 +19,7 @@ _LONGEST_SAID = 10_000
 _LONGEST_QUOTE = 60
 _MOST_NAMED = 13
 _LONGEST_COMPARED = 200
+_MOST_BESIDE = 1000
 
 
 def quoted(value: object) -> str:
@@ -71,6 +72,25 @@ def did_you_mean(unknown: str, known: Iterable[str]) -> str:
         return f"; did you mean {' or '.join(dict.fromkeys(close))}?"
     more = f" and {len(words) - _MOST_NAMED} more" if len(words) > _MOST_NAMED else ""
     return f"; known are {', '.join(words[:_MOST_NAMED])}{more}."
+
+
+def near(unknown: str, known: Iterable[str]) -> str:
+    """``; did you mean a?`` for the known word closest to ``unknown``; empty if none is close."""
+    words = list(known)
+    swapped = [word for word in words if sorted(word) == sorted(unknown)]
+    hint = did_you_mean(unknown, swapped or words)
+    return hint.split(" or ")[0].rstrip("?") + "?" if hint.startswith("; did") else ""
+
+
+def near_file(path: Path) -> str:
+    """``; did you mean a?`` for the file or folder beside ``path`` whose name is closest to its."""
+    try:
+        beside = [each.name for each in path.parent.iterdir() if not each.name.startswith(".")]
+    except (OSError, ValueError):  # ValueError: a null byte in the path
+        return ""
+    hint = near(path.name, beside[:_MOST_BESIDE])
+    name = hint.removeprefix("; did you mean ").removesuffix("?")
+    return f"; did you mean {quoted_path(path.parent / name)}?" if name else ""
 
 
 def _represented(value: object) -> str:

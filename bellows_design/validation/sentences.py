@@ -8,6 +8,7 @@ the keys that look alike.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, get_args
 
@@ -15,7 +16,7 @@ from pydantic import BaseModel, ValidationError
 from pydantic.fields import FieldInfo
 
 from bellows_design.errors import DesignError
-from bellows_design.validation.quoting import did_you_mean, quoted
+from bellows_design.validation.quoting import did_you_mean, near, quoted
 
 _BOUNDS = {
     "greater_than": ("gt", "greater than"),
@@ -88,7 +89,9 @@ def _sentence(detail: Mapping[str, Any], model: type[BaseModel]) -> str:
     if kind in _NOUNS:
         return f"{name or 'a design'} is {quoted(value)} but must be {_NOUNS[kind]}."
     if kind == "literal_error":
-        return f"{name} is {quoted(value)} but must be {context['expected']}."
+        expected = str(context["expected"])
+        hint = near(str(value), re.findall(r"'([^']*)'", expected))
+        return f"{name} is {quoted(value)} but must be {expected}{hint or '.'}"
     return _ended(f"{name} is {quoted(value)}: {_lowered(str(detail['msg']))}")
 
 
@@ -99,6 +102,11 @@ def _wanted(kind: str, context: Mapping[str, Any]) -> str:
     if kind.startswith("int"):
         return "a whole number"
     return _NOUNS.get(kind, "a number" if kind.startswith("float") else "given")
+
+
+def field_at(model: type[BaseModel], location: Sequence[str]) -> FieldInfo | None:
+    """The field of ``model`` at ``location``; None where it is not known."""
+    return _field(model, location)
 
 
 def unit_at(model: type[BaseModel], location: Sequence[str]) -> str | None:

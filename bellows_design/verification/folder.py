@@ -28,7 +28,7 @@ from bellows_design.export.manifest import (
 )
 from bellows_design.export.seal import seal_holds
 from bellows_design.files.guarded import read_file
-from bellows_design.validation.quoting import quoted, quoted_path
+from bellows_design.validation.quoting import near_file, quoted, quoted_path
 from bellows_design.verification.record import FileCheck, State
 
 LARGEST_FILE = 512 * 2**20
@@ -51,7 +51,7 @@ def sealed_manifest(folder: Path) -> tuple[dict[str, Any], bytes] | FileCheck:
     """
     path = folder / MANIFEST
     if not folder.is_dir():
-        raise DesignError(f"there is no folder {quoted_path(folder)}.")
+        raise DesignError(f"there is no folder {quoted_path(folder)}{near_file(folder) or '.'}")
     if path.is_symlink() or not path.is_file():
         raise DesignError(f"{quoted_path(folder)} is no export: it holds no {MANIFEST}.")
     content = read_file(path, "manifest", LARGEST)

@@ -12,7 +12,7 @@ from importlib.resources import files
 from importlib.resources.abc import Traversable
 from pathlib import Path
 
-from printers.errors import PrintersError, quoted
+from printers.errors import PrintersError, near, quoted
 
 
 @dataclass(frozen=True)
@@ -52,9 +52,8 @@ class Library:
             return shipped[name]
         known = {**self._third_party(), **shipped}
         if name not in known:
-            raise PrintersError(
-                f"there is no {self.noun} {quoted(name)}; known: {', '.join(sorted(known))}"
-            )
+            hint = near(name, known) or f"; known: {', '.join(sorted(known))}"
+            raise PrintersError(f"there is no {self.noun} {quoted(name)}{hint}")
         return known[name]
 
     def _shipped(self) -> dict[str, Traversable]:

@@ -8,7 +8,7 @@ from importlib.resources.abc import Traversable
 from pathlib import Path
 from typing import Any
 
-from printers.errors import PrintersError, quoted, shortened
+from printers.errors import PrintersError, near, quoted, shortened
 from printers.toml_errors import toml_error
 
 LARGEST_FILE = 1_000_000
@@ -27,10 +27,17 @@ def read_table(source: Traversable, noun: str, shown: str) -> dict[str, Any]:
     try:
         return _parsed(_text(source))
     except FileNotFoundError:
-        raise PrintersError(f"there is no {noun} file {name}") from None
+        raise PrintersError(f"there is no {noun} file {name}{_near(source)}") from None
     except (OSError, ValueError, RecursionError) as error:
         reason = getattr(error, "strerror", None) or shortened(str(error)).rstrip(".")
         raise PrintersError(f"{noun} {name} cannot be read: {reason}") from None
+
+
+def _near(source: Traversable) -> str:
+    """The file beside the missing one whose name is most like its."""
+    if not isinstance(source, Path) or not source.parent.is_dir():
+        return ""
+    return near(source.name, [each.name for each in source.parent.glob("*.toml")])
 
 
 def _text(source: Traversable) -> str:

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
 import pytest
+from answers import assert_fits
 from fakes import fake_report
+from rendered import printed_on_any_terminal
 
 from bellows_design.budget import DEFAULT, Budget
 from bellows_design.design.design import Design
@@ -60,8 +63,15 @@ def stub_stages(monkeypatch: pytest.MonkeyPatch, cube_part: Part) -> Callable[..
 
 
 @pytest.fixture
-def bellows(capfd: pytest.CaptureFixture[str]) -> Callable[..., tuple[int, str, str]]:
-    """Run the command in this process: (exit status, stdout, stderr)."""
+def bellows(
+    capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> Callable[..., tuple[int, str, str]]:
+    """Run the command in this process: (exit status, stdout, stderr).
+
+    With ``--json`` the answer is as the schema that it names says; without, what is printed fits
+    terminals of any width, and nothing of it is cut.
+    """
+    monkeypatch.setattr("bellows_design.cli.answer.print_for_people", printed_on_any_terminal)
     from bellows_design.cli.commands import app
 
     def call(*arguments: str) -> tuple[int, str, str]:
@@ -72,6 +82,8 @@ def bellows(capfd: pytest.CaptureFixture[str]) -> Callable[..., tuple[int, str, 
             status = exit_.code
         captured = capfd.readouterr()
         assert isinstance(status, int | None)
+        if "--json" in arguments:
+            assert_fits(json.loads(captured.out))
         return status or 0, captured.out, captured.err
 
     return call

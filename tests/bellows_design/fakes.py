@@ -9,6 +9,7 @@ from typing import Any
 from bellows_design.analysis.computation import Seconds
 from bellows_design.analysis.evaluation import Evaluation, MeshReading, MeshSize, SolverEffort
 from bellows_design.analysis.material_range import ReachedStrain
+from bellows_design.analysis.wall_contact import WallContact
 from bellows_design.analysis.whole_actuator import Reading
 from bellows_design.design import Design, load_design
 from printers import PrintabilityReport, RuleResult
@@ -28,13 +29,10 @@ class FakeStrain(ReachedStrain):
 
 
 @dataclass(frozen=True)
-class FakeContact:
+class FakeContact(WallContact):
     detected: bool = False
     min_gap_mm: float | None = 0.5
-    inner_gap_mm: float | None = None
-    where: tuple[str, ...] = ()
-    note: str = ""
-    void: bool = False
+    overlaps_itself: bool = False
 
 
 MESHES = (MeshReading(MeshSize(1, 10, 34), Reading(0.1, 400.0, 3.0, 1000.0)),)

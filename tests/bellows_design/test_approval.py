@@ -101,7 +101,7 @@ def test_a_load_that_was_not_reached_refuses(found: FakeEvaluation) -> None:
 
 def test_walls_that_run_through_each_other_refuse_whatever_the_numbers_say() -> None:
     """The load was reached, and the stress keeps its limit: of a shape that cannot be."""
-    void = replace(GOOD, contact=FakeContact(detected=True, where=("inner walls",), void=True))
+    void = replace(GOOD, contact=FakeContact(detected=True, where=("inner walls",)))
     (reason,) = decide(DESIGN, fake_report(), void).reasons
     assert reason.kind == reason.rule == "contact"
     assert reason.message.startswith("Inner walls touch at 0.1 MPa")

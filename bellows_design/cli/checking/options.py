@@ -8,9 +8,11 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from bellows_design.cli.completion.names import designs_and_parts, filaments
+from bellows_design.cli.layout import panels
 from bellows_design.cli.options import DesignOptions
 from bellows_design.errors import DesignError
-from bellows_design.validation.quoting import quoted
+from bellows_design.validation.quoting import near, quoted
 
 if TYPE_CHECKING:
     from printers import PrinterProfile
@@ -25,12 +27,19 @@ Checked = Annotated[
     str,
     typer.Argument(
         metavar="DESIGN|FILE",
+        autocompletion=designs_and_parts,
         help="A shipped design, a TOML file, or a part of any program: .stl, .3mf, .step, .gcode.",
     ),
 ]
 FilamentName = Annotated[
     str | None,
-    typer.Option("--filament", help="Filament, or a TOML file, instead of the printer's."),
+    typer.Option(
+        "--filament",
+        metavar="NAME",
+        autocompletion=filaments,
+        help="Filament, or a TOML file, instead of the printer's.",
+        rich_help_panel=panels.DESIGN,
+    ),
 ]
 Openings = Annotated[
     list[str] | None,
@@ -58,11 +67,21 @@ RequireSlicer = Annotated[
     bool, typer.Option("--require-slicer", help="With --slice: without a slicer the check fails.")
 ]
 Picture = Annotated[
-    Path | None, typer.Option(help="Also draw the layer with the leak or the thinnest seal (.png).")
+    Path | None,
+    typer.Option(
+        metavar="FILE",
+        help="Also draw the layer with the leak or the thinnest seal (.png).",
+        rich_help_panel=panels.FILES,
+    ),
 ]
 KeepGcode = Annotated[
     Path | None,
-    typer.Option("--keep-gcode", metavar="FILE", help="Also write the G-code (.gcode)."),
+    typer.Option(
+        "--keep-gcode",
+        metavar="FILE",
+        help="Also write the G-code (.gcode).",
+        rich_help_panel=panels.FILES,
+    ),
 ]
 
 
@@ -153,14 +172,19 @@ class CheckOptions:
             if given not in (None, False, ()) and not holds:
                 raise DesignError(f"{option} means nothing for {quoted(self.name)}: {reason}.")
         if self.orientation not in (None, AUTO):
-            raise DesignError(f"--orientation is {quoted(str(self.orientation))}; it can be auto.")
+            hint = near(str(self.orientation), [AUTO])
+            raise DesignError(
+                f"--orientation is {quoted(str(self.orientation))}; it can be auto{hint or '.'}"
+            )
         if self.orientation is not None and self.up is not None:
             raise DesignError("--orientation auto chooses what --up says: give one of them.")
 
     def _require_known_file(self) -> None:
-        known = (*PARTS, *GCODE)
-        if self.is_design and self.suffix not in ("", ".toml") and Path(self.name).is_file():
+        known = (".toml", *PARTS, *GCODE)
+        hint = near(self.suffix, known)
+        is_file = self.suffix not in ("", ".toml") and (hint or Path(self.name).is_file())
+        if self.is_design and is_file:
             raise DesignError(
-                f"{quoted(self.name)} is no design and no part: its name must end in .toml, "
-                f"{', '.join(known)}."
+                f"{quoted(self.name)} is no design and no part: its name must end in "
+                f"{', '.join(known)}{hint or '.'}"
             )

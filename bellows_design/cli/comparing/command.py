@@ -9,6 +9,8 @@ from typing import Annotated
 import typer
 
 from bellows_design.cli.answer import Answer, answer
+from bellows_design.cli.completion.options import complete_scene
+from bellows_design.cli.layout import panels
 from bellows_design.cli.options import (
     AsJson,
     BudgetOptions,
@@ -18,6 +20,7 @@ from bellows_design.cli.options import (
     Memory,
     MeshSeconds,
     NoCache,
+    Quiet,
     Settings,
     Skip,
     TimeLimit,
@@ -73,6 +76,7 @@ SceneName = Annotated[
     typer.Option(
         "--scene",
         metavar="SCENE",
+        autocompletion=complete_scene,
         help="Of a force: a scene of the design, or a TOML file that holds one; without it the "
         "tip presses on a load cell at its rest height.",
     ),
@@ -92,6 +96,7 @@ ColumnNames = Annotated[
         metavar="NAMES",
         help="Names of the columns instead of the header's: pressure_kpa,angle_deg, with - for one "
         "to leave out; or by number: pressure_kpa=2,angle_deg=4.",
+        rich_help_panel=panels.READING,
     ),
 ]
 UnitNames = Annotated[
@@ -101,11 +106,16 @@ UnitNames = Annotated[
         metavar="UNITS",
         help="Units instead of the header's: pressure=kPa (MPa, bar, psi …), angle=deg (rad), "
         "displacement=mm, force=N.",
+        rich_help_panel=panels.READING,
     ),
 ]
 BranchOption = Annotated[
     BranchName,
-    typer.Option("--branch", help="Of a test that goes to and fro: loading, unloading or all."),
+    typer.Option(
+        "--branch",
+        help="Of a test that goes to and fro: loading, unloading or all.",
+        rich_help_panel=panels.READING,
+    ),
 ]
 Fit = Annotated[
     bool, typer.Option("--fit/--no-fit", help="Whether a factor on the stiffness is fitted.")
@@ -124,12 +134,19 @@ Uncertainty = Annotated[
 WriteMaterial = Annotated[
     Path | None,
     typer.Option(
-        "--write-material", metavar="FILE", help="Also write the material with the factor (.toml)."
+        "--write-material",
+        metavar="FILE",
+        help="Also write the material with the factor (.toml).",
+        rich_help_panel=panels.FILES,
     ),
 ]
 Plot = Annotated[
     Path | None,
-    typer.Option(help="Also draw both curves, bands and residuals (.png); needs matplotlib."),
+    typer.Option(
+        metavar="FILE",
+        help="Also draw both curves, bands and residuals (.png); needs matplotlib.",
+        rich_help_panel=panels.FILES,
+    ),
 ]
 
 
@@ -156,6 +173,7 @@ def compare(
     mesh_seconds: MeshSeconds = None,
     seconds: TimeLimit = None,
     no_cache: NoCache = False,
+    quiet: Quiet = False,
     as_json: AsJson = False,
 ) -> None:
     """Hold a measurement against the model: how stiff is the print?"""
@@ -178,4 +196,4 @@ def compare(
         )  # fmt: skip
         return compare_answer(options)
 
-    answer(work, as_json)
+    answer(work, as_json, quiet)

@@ -8,6 +8,8 @@ from typing import Annotated
 import typer
 
 from bellows_design.cli.answer import answer
+from bellows_design.cli.completion.options import complete_scene
+from bellows_design.cli.layout import panels
 from bellows_design.cli.options import (
     AsJson,
     BudgetOptions,
@@ -17,6 +19,7 @@ from bellows_design.cli.options import (
     MeshSeconds,
     NoCache,
     Pressure,
+    Quiet,
     Settings,
     TimeLimit,
 )
@@ -26,6 +29,7 @@ SceneName = Annotated[
     typer.Option(
         "--scene",
         metavar="SCENE",
+        autocompletion=complete_scene,
         help="A scene of the design, free, blocked, or a TOML file that holds one.",
     ),
 ]
@@ -45,11 +49,19 @@ Flow = Annotated[
 ]
 Picture = Annotated[
     Path | None,
-    typer.Option(help="Also draw the finger's shapes (.png); needs matplotlib."),
+    typer.Option(
+        metavar="FILE",
+        help="Also draw the finger's shapes (.png); needs matplotlib.",
+        rich_help_panel=panels.FILES,
+    ),
 ]
 Plot = Annotated[
     Path | None,
-    typer.Option(help="Also draw force over pressure and distance (.png); needs matplotlib."),
+    typer.Option(
+        metavar="FILE",
+        help="Also draw force over pressure and distance (.png); needs matplotlib.",
+        rich_help_panel=panels.FILES,
+    ),
 ]
 
 
@@ -66,6 +78,7 @@ def force(
     mesh_seconds: MeshSeconds = None,
     seconds: TimeLimit = None,
     no_cache: NoCache = False,
+    quiet: Quiet = False,
     as_json: AsJson = False,
 ) -> None:
     """Compute what the actuator exerts in a scene: blocked, carrying, gripping."""
@@ -75,4 +88,4 @@ def force(
         DesignOptions(name, tuple(settings or ())), scene, pressure, by_distance, flow, picture,
         plot, BudgetOptions(memory, mesh_seconds, seconds), not no_cache,
     )  # fmt: skip
-    answer(lambda: force_answer(options), as_json)
+    answer(lambda: force_answer(options), as_json, quiet)

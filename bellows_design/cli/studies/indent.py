@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from bellows_design.cli.answer import DONE, NOT_SOLVED, Answer, unwritten
+from bellows_design.cli.layout.said import stated
 from bellows_design.cli.output_files import require_file, require_plot
 from bellows_design.cli.surroundings.environment import require_working_folder
 from bellows_design.cli.surroundings.memory import EVALUATION, require_address_space
@@ -49,7 +50,7 @@ def indent(
     require_plot(plot)
     with solving() as progress:
         study = _searched(chosen, how, progress, usual_store(progress) if how.cached else None)
-    content = study.to_dict()
+    content = stated(study.to_dict())
     failed = unwritten(
         *(() if output is None else (lambda: write_json(content, output),)),
         *(() if plot is None else (lambda: plot_indents(study, plot),)),

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
 from bellows_design.cli.answer import DONE, NOT_SOLVED, REFUSED, Answer, unwritten
+from bellows_design.cli.layout.said import stated
 from bellows_design.cli.options import DesignOptions
 from bellows_design.cli.output_files import require_file, require_plot
 from bellows_design.cli.studies.workers import who_works
@@ -168,7 +169,7 @@ def optimize(
     ):
         found = search(optimization, results, executor, minutes, verify, half, progress)
     designs = designs_of(found)
-    content = content_of(found, designs)
+    content = stated(content_of(found, designs))
     writers = [partial(write_designs, designs, content, files.folder)]
     if files.plot is not None:
         writers.append(partial(plot_optimum, found, files.plot))

@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 from bellows_design.cli.answer import answer
-from bellows_design.cli.options import AsJson, DesignName, DesignOptions, Settings
+from bellows_design.cli.options import AsJson, DesignName, DesignOptions, Quiet, Settings
 from bellows_design.cli.studies.options import Scheduler, Workers
 
 
@@ -94,6 +94,7 @@ def optimize(
         Path | None, typer.Option(help="Also draw the front (.png); needs matplotlib.")
     ] = None,
     settings: Settings = None,
+    quiet: Quiet = False,
     as_json: AsJson = False,
 ) -> None:
     """Find the best design: whole lines, printable, within its limits.
@@ -112,4 +113,5 @@ def optimize(
             options, sought, counted, files, minutes, seed, verify, half, workers, scheduler
         ),
         as_json,
+        quiet,
     )

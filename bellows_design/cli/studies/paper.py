@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from bellows_design.cli.answer import DONE, NOT_SOLVED, Answer, unwritten
+from bellows_design.cli.layout.said import stated
 from bellows_design.cli.output_files import require_file, require_plot
 from bellows_design.cli.surroundings.environment import require_working_folder
 from bellows_design.cli.surroundings.memory import EVALUATION, require_address_space
@@ -25,7 +26,7 @@ def paper(output: Path | None, plot: Path | None, cached: bool) -> Answer:
 
     with solving() as progress:
         comparison = compared(progress, usual_store(progress) if cached else None)
-    content = comparison.to_dict()
+    content = stated(comparison.to_dict())
     failed = unwritten(
         *(() if output is None else (lambda: write_json(content, output),)),
         *(() if plot is None else (lambda: plot_paper(comparison, plot),)),

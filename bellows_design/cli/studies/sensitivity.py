@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from bellows_design.cli.answer import DONE, NOT_SOLVED, Answer, unwritten
+from bellows_design.cli.layout.said import stated
 from bellows_design.cli.options import DesignOptions
 from bellows_design.cli.output_files import require_file, require_plot
 from bellows_design.cli.surroundings.environment import require_working_folder
@@ -53,7 +54,7 @@ def sensitivity(
             sentence = f"{chosen.name} has no state to study: {reason}."
             return Answer({"error": sentence, "exit_status": NOT_SOLVED}, [sentence], NOT_SOLVED)
         study = studied(chosen, evaluation, plan, progress)
-    content = study.to_dict()
+    content = stated(study.to_dict())
     failed = unwritten(
         *(() if output is None else (lambda: write_json(content, output),)),
         *(() if plot is None else (lambda: plot_sensitivity(study, plot),)),

@@ -66,7 +66,7 @@ def evaluated(monkeypatch):
     def evaluate(design, *_, **__):
         designs.append(design)
         void = design == FINGER
-        return FakeEvaluation(design=design, contact=FakeContact(void=void, where=("walls",)))
+        return FakeEvaluation(design=design, contact=FakeContact(detected=void, where=("walls",)))
 
     class Around:
         def __init__(self, anchor):

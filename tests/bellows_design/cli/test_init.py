@@ -10,7 +10,8 @@ from pathlib import Path
 import pytest
 from pydantic.fields import FieldInfo
 
-from bellows_design.cli.templates import Kind, name_from, template
+from bellows_design.cli.starting.kinds import Kind
+from bellows_design.cli.starting.templates import name_from, template
 from bellows_design.design import (
     BellowsParameters,
     Design,
@@ -22,7 +23,8 @@ from bellows_design.design import (
     Port,
     load_design,
 )
-from bellows_design.materials.library import material_at
+from bellows_design.design.scenes.scene import KINDS, scene_of
+from bellows_design.materials.library import load_material, material_at
 from bellows_design.materials.material import Material
 from bellows_design.own_body import (
     BodyLoad,
@@ -36,12 +38,21 @@ from bellows_design.own_body import (
     Selection,
     Tip,
 )
-from printers import Filament, PrinterProfile, SlicerAdvice, load_profile, profile_from_table
+from printers import (
+    Filament,
+    PrinterProfile,
+    SlicerAdvice,
+    load_filament,
+    load_profile,
+    profile_from_table,
+)
 
 Bellows = Callable[..., tuple[int, str, str]]
 RECORDS = {
     Kind.DESIGN: (Design, BellowsParameters, Indent, Port, Mount, Fingertip, Load, Limits),
     Kind.PRINTER: (PrinterProfile, SlicerAdvice, Filament),
+    Kind.FILAMENT: (Filament,),
+    Kind.SCENE: tuple(KINDS.values()),
     Kind.MATERIAL: (Material,),
     Kind.BODY: (
         OwnBody,
@@ -111,6 +122,11 @@ def test_the_files_are_loaded_and_describe_what_is_shipped(
     assert (
         printer.name == "my_printer" and printer.line_width == load_profile("prusa_i3").line_width
     )
+    filament = load_filament(tmp_path / "my_filament.toml")
+    assert filament.name == "my_filament"
+    assert filament.nozzle_temperature == load_filament("ninjaflex_85a").nozzle_temperature
+    scene = tomllib.loads((tmp_path / "my_scene.toml").read_text("utf-8"))
+    assert scene_of(scene, "scene") == KINDS["blocked"]()
     material = material_at(tmp_path / "my_material.toml")
     assert material.name == "my_material" and material.mu == design.material.mu
 
@@ -147,3 +163,55 @@ def test_any_file_name_gives_a_name_of_a_design(stem: str) -> None:
         Design.from_toml(template(Kind.DESIGN, name_from(stem))).digest
         == load_design("finger").digest
     )
+
+
+@pytest.mark.parametrize("name", ["prototype_1", "prototype_2_indent"])
+def test_a_design_may_begin_as_another(bellows: Bellows, tmp_path: Path, name: str) -> None:
+    first, second = tmp_path / "first.toml", tmp_path / "second.toml"
+    assert bellows("init", "design", str(first), "--from", name)[0] == 0
+    assert bellows("init", "design", str(second), "--from", str(first))[0] == 0
+    assert load_design(second).digest == load_design(name).digest
+    assert load_design(second).name == "second"
+
+
+def test_a_design_with_scenes_and_a_material_of_its_own_begins_another(tmp_path: Path) -> None:
+    own = load_material("ninjaflex").model_copy(update={"name": "mine", "yield_strength": 3.0})
+    scenes = {"desk": {"kind": "blocked", "support": "wall", "distance": 8.0}}
+    design = Design.of(load_design("finger").model_dump() | {"material": own, "scenes": scenes})
+    file = tmp_path / "own.toml"
+    file.write_text(design.to_toml(), "utf-8")
+    copied = Design.from_toml(template(Kind.DESIGN, "copied", str(file)))
+    assert copied.digest == design.digest and copied.scenes == design.scenes
+
+
+def test_printers_filaments_and_materials_may_begin_as_others() -> None:
+    printer = tomllib.loads(template(Kind.PRINTER, "mine", "nozzle_0_6"))
+    assert printer["nozzle_diameter"] == 0.6 and printer["name"] == "mine"
+    filament = tomllib.loads(template(Kind.FILAMENT, "mine", "cheetah_95a"))
+    assert filament["shore"] == load_filament("cheetah_95a").shore
+    material = tomllib.loads(template(Kind.MATERIAL, "mine", "ecoflex_00_30"))
+    assert material["mu"] == list(load_material("ecoflex_00_30").mu)
+
+
+@pytest.mark.parametrize("kind", list(KINDS))
+def test_a_scene_of_any_kind_is_one(kind: str) -> None:
+    table = tomllib.loads(template(Kind.SCENE, "mine", kind))
+    assert scene_of(table, "scene").kind == kind
+
+
+@pytest.mark.parametrize(
+    ("kind", "source", "words"),
+    [
+        ("design", "fingr", "did you mean finger?"),
+        ("printer", "prusa_i4", "did you mean prusa_i3?"),
+        ("filament", "ninjaflex", "did you mean ninjaflex_85a?"),
+        ("scene", "block", "did you mean blocked?"),
+        ("body", "finger", "--from is for all but own bodies"),
+    ],
+)
+def test_what_cannot_be_begun_from_is_named(
+    bellows: Bellows, tmp_path: Path, kind: str, source: str, words: str
+) -> None:
+    status, _, err = bellows("init", kind, str(tmp_path / "x.toml"), "--from", source)
+    assert status == 2 and words in err and err.count("\n") == 1
+    assert not list(tmp_path.iterdir())

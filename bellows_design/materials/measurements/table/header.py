@@ -13,7 +13,7 @@ from bellows_design.materials.measurements.table.numbers import looks_like_a_num
 from bellows_design.materials.measurements.table.rows import Row, Sheet
 from bellows_design.materials.measurements.table.units import plain_unit
 from bellows_design.materials.measurements.table.vocabulary import TENSION, Vocabulary
-from bellows_design.validation.quoting import quoted
+from bellows_design.validation.quoting import near, quoted
 
 NO_COLUMN = Heading("-", "other")
 
@@ -148,7 +148,8 @@ def _told(name: str, vocabulary: Vocabulary) -> Heading:
         return NO_COLUMN
     found = heading(name, vocabulary)
     if found.quantity is None:
-        raise DesignError(f"--columns has {quoted(name)}; {vocabulary.names}")
+        hint = near(name.partition("_")[0], vocabulary.words)
+        raise DesignError(f"--columns has {quoted(name)}{hint or f'; {vocabulary.names}'}")
     return found._replace(told=True)
 
 
@@ -226,7 +227,7 @@ def _with_units(
         if not known:
             raise DesignError(
                 f"--units has {quoted(part.strip())} but must have a quantity and its unit, as in "
-                f"{vocabulary.units_example}."
+                f"{vocabulary.units_example}{near(name, vocabulary.words) or '.'}"
             )
         if plain_unit(unit) not in known:
             raise DesignError(

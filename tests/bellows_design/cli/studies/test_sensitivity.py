@@ -112,6 +112,7 @@ def test_a_design_that_does_not_reach_its_pressure_is_not_studied(
     status, out, _ = bellows(*ASKED, "--json")
     assert status == 3
     assert json.loads(out) == {
+        "schema": "bellows error 1",
         "error": "finger has no state to study: stopped at 0.06 MPa.",
         "exit_status": 3,
     }

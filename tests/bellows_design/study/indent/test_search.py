@@ -82,7 +82,7 @@ def test_designs_that_are_not_solved_are_no_trials(monkeypatch: pytest.MonkeyPat
     assert study.trials == study.found == () and study.front == (study.plain,)
 
 
-VOID = FakeContact(void=True, where=("walls",))
+VOID = FakeContact(detected=True, where=("walls",))
 
 
 def test_results_that_do_not_hold_are_no_trials_and_do_not_end_the_search(

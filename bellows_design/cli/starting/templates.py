@@ -1,7 +1,7 @@
-"""Commented files to start from: a design, a printer profile, a material, an own body.
+"""Commented files to start from: a design, a scene, a printer, a filament, a material, an own body.
 
-Everything in the first three comes from the records themselves: the keys, what they mean, their
-units and bounds; the values are those of a shipped design, printer and material.
+All but the last come from the records themselves: the keys, what they mean, their units and bounds;
+the values are those of something shipped, or of what is to be started from.
 """
 
 from __future__ import annotations
@@ -9,18 +9,27 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterator, Mapping
-from enum import StrEnum
+from pathlib import Path
 from typing import Any
 
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
 from bellows_design.cli.own_body.template import body_template
+from bellows_design.cli.starting.kinds import Kind
+from bellows_design.errors import DesignError
 from bellows_design.validation.file_names import names_a_file
+from bellows_design.validation.quoting import did_you_mean, quoted
 from bellows_design.validation.sentences import nested_model
 
-DESIGN, PRINTER, MATERIAL = "finger", "prusa_i3", "ninjaflex"
-"""Whose values are filled in."""
+STARTS: Mapping[Kind, str] = {
+    Kind.DESIGN: "finger",
+    Kind.PRINTER: "prusa_i3",
+    Kind.FILAMENT: "ninjaflex_85a",
+    Kind.MATERIAL: "ninjaflex",
+    Kind.SCENE: "blocked",
+}
+"""Whose values are filled in unless others are asked for."""
 
 EXAMPLES: Mapping[str, Any] = {
     "number_of_bubbles": 7,
@@ -34,32 +43,66 @@ EXAMPLES: Mapping[str, Any] = {
     "length": 12.0,
     "width": 16.0,
     "thickness": 3.2,
+    "mass_g": 50.0,
+    "size": 20.0,
+    "distance": 15.0,
+    "place": 35.0,
+    "height": 10.0,
 }
 """Values for keys that the shipped ones leave out and that have no default."""
 
 _BOUNDS = (("ge", "at least"), ("gt", "above"), ("le", "at most"), ("lt", "below"))
 
 
-class Kind(StrEnum):
-    """What a file to start from holds."""
+def template(kind: Kind, name: str, source: str | None = None) -> str:
+    """A commented TOML file of that kind, for a thing called ``name``.
 
-    DESIGN = "design"
-    PRINTER = "printer"
-    MATERIAL = "material"
-    BODY = "body"
-
-
-def template(kind: Kind, name: str) -> str:
-    """A commented TOML file of that kind, for a thing called ``name``."""
+    Its values are those of ``source``: a name or a file; without it of something shipped. Raises
+    ``DesignError`` and ``PrintersError``.
+    """
     if kind is Kind.BODY:
+        if source is not None:
+            raise DesignError("--from is for all but own bodies; leave it out.")
         return body_template(name)
+    if kind is Kind.SCENE:
+        return scene_template(source or STARTS[kind])
     header, model, values = {
         Kind.DESIGN: _design,
         Kind.PRINTER: _printer,
+        Kind.FILAMENT: _filament,
         Kind.MATERIAL: _material,
-    }[kind]()
+    }[kind](source or STARTS[kind])
     lines = [f"# {line}" for line in header]
     return "\n".join([*lines, *_table(model, values | {"name": name}, "")]) + "\n"
+
+
+def scene_template(kind: str) -> str:
+    """A commented TOML file of a scene of that kind; keys of the other kinds are commented out.
+
+    Raises ``DesignError``.
+    """
+    from bellows_design.design.scenes.scene import KINDS
+
+    if kind not in KINDS:
+        raise DesignError(f"unknown kind of scene {quoted(kind)}{did_you_mean(kind, KINDS)}")
+    lines = [
+        "# What stands around the finger where it exerts forces. Lengths in mm, masses in g.",
+        "# Use it with bellows force --scene FILE, or in a design as the table [scenes.NAME].",
+    ]
+    for name in sorted(KINDS, key=lambda each: each != kind):
+        about = (KINDS[name].__doc__ or name).split("\n")[0].rstrip(".")
+        lines += ["", f"# {name}: {about}" if name == kind else f"# instead, {name}: {about}"]
+        for field, (about, key) in zip(
+            KINDS[name].model_fields.values(), _pairs(_keys_left_out(KINDS[name])), strict=True
+        ):
+            left_out = name != kind or (field.default is None and not field.is_required())
+            lines += [about, key if left_out else key.removeprefix("# ")]
+    return "\n".join(lines) + "\n"
+
+
+def _pairs(lines: Iterator[str]) -> Iterator[tuple[str, str]]:
+    """A comment and the key below it."""
+    return zip(lines, lines, strict=True)
 
 
 def name_from(stem: str) -> str:
@@ -68,48 +111,84 @@ def name_from(stem: str) -> str:
     return slug if names_a_file(slug) else f"my_{slug}"
 
 
-def _design() -> tuple[list[str], type[BaseModel], dict[str, Any]]:
+Start = tuple[list[str], type[BaseModel], dict[str, Any]]
+"""Comments at the beginning, the record, and its values."""
+
+
+def _design(source: str) -> Start:
     from bellows_design.design.design import Design
     from bellows_design.design.shipped import load_design
 
-    design = load_design(DESIGN)
-    values = design.model_dump(mode="json") | {"material": design.material.name}
+    design = load_design(source)
+    values = design.model_dump(mode="json") | {"material": _material_of(design)}
     header = [
         "A bellows actuator. Lengths in mm, pressures and stresses in MPa.",
         "Lines that begin with # are comments; keys in them are optional.",
-        f"The numbers are those of the shipped design {DESIGN}.",
+        f"The numbers are those of the {'shipped ' * (not is_path(source))}design {design.name}.",
     ]
     return header, Design, values | {"description": ""}
 
 
-def _printer() -> tuple[list[str], type[BaseModel], dict[str, Any]]:
+def _material_of(design: Any) -> Any:
+    """Its name, where the library has it by that; else the whole of it."""
+    from bellows_design.materials.library import load_material, material_names
+
+    material = design.material
+    if material.name in material_names() and load_material(material.name) == material:
+        return material.name
+    return material.model_dump(mode="json", exclude_none=True)
+
+
+def _printer(source: str) -> Start:
     from printers import PrinterProfile, load_profile
 
-    values = load_profile(PRINTER).model_dump(mode="json")
+    profile = load_profile(source)
+    values = profile.model_dump(mode="json")
     for table in ("slicer", "filament"):
-        values[table]["sources"] = [f"copied from {PRINTER}: replace by your own"]
+        if values.get(table):
+            values[table]["sources"] = [f"copied from {profile.name}: replace by your own"]
     header = [
         "A printer with its nozzle. Lengths in mm, angles in degrees.",
         'Use it with --printer FILE, or in a design as printer = "FILE".',
         "Keys may be left out that are as on a printer which the key extends names.",
-        f"The numbers are those of the shipped profile {PRINTER}: replace them by your own.",
+        f"The numbers are those of {profile.name}: replace them by your own.",
     ]
-    return header, PrinterProfile, values | {"description": f"Copied from {PRINTER}"}
+    return header, PrinterProfile, values | {"description": f"Copied from {profile.name}"}
 
 
-def _material() -> tuple[list[str], type[BaseModel], dict[str, Any]]:
+def _filament(source: str) -> Start:
+    from printers import Filament, load_filament
+
+    filament = load_filament(source)
+    values = filament.model_dump(mode="json")
+    header = [
+        "A filament. Temperatures in °C, flow in mm³/s.",
+        'Use it with bellows check --filament FILE, or in a printer as filament = "FILE".',
+        f"The numbers are those of {filament.name}: replace them by your own.",
+    ]
+    copied = [f"copied from {filament.name}: replace by your own"]
+    return header, Filament, values | {"sources": copied, "description": ""}
+
+
+def _material(source: str) -> Start:
     from bellows_design.materials.laws import LAWS
-    from bellows_design.materials.library import load_material
+    from bellows_design.materials.library import load_material, material_at
     from bellows_design.materials.material import Material
 
-    values = load_material(MATERIAL).model_dump(mode="json")
+    material = material_at(Path(source)) if is_path(source) else load_material(source)
     header = [
         "A material: an incompressible rubber with a yield strength. Stresses in MPa.",
         'Use it in a design as material = "FILE". From measurements: bellows fit -o FILE.',
         f"Models: {', '.join(LAWS)}; some are written with constants of their own.",
-        f"The numbers are those of {MATERIAL}: replace them by your own.",
+        f"The numbers are those of {material.name}: replace them by your own.",
     ]
-    return header, Material, values | {"source": f"copied from {MATERIAL}: replace by your own"}
+    copied = f"copied from {material.name}: replace by your own"
+    return header, Material, material.model_dump(mode="json") | {"source": copied}
+
+
+def is_path(source: str) -> bool:
+    """Whether a file is meant, not a name."""
+    return source.endswith(".toml")
 
 
 def _table(model: type[BaseModel], values: Mapping[str, Any], path: str) -> Iterator[str]:
@@ -135,7 +214,8 @@ def _keys_left_out(model: type[BaseModel]) -> Iterator[str]:
     """The keys of a table that is commented out, each with its default or an example."""
     for name, field in model.model_fields.items():
         about, _ = _key(name, field, None)
-        example = EXAMPLES.get(name) if field.is_required() else field.default
+        given = None if field.is_required() else field.default
+        example = EXAMPLES.get(name) if given is None else given
         yield from (about, f"# {name} = {_as_toml(example)}")
 
 
@@ -155,7 +235,10 @@ def _example(name: str, field: FieldInfo, value: Any) -> Any:
 def _as_toml(value: Any) -> str:
     """The value as it stands in TOML, on one line."""
     if isinstance(value, Mapping):
-        return "{ " + ", ".join(f"{key} = {_as_toml(inner)}" for key, inner in value.items()) + " }"
+        known = ((key, inner) for key, inner in value.items() if inner is not None)
+        return "{ " + ", ".join(f"{key} = {_as_toml(inner)}" for key, inner in known) + " }"
+    if isinstance(value, list | tuple) and any(isinstance(each, Mapping) for each in value):
+        return f"[{', '.join(_as_toml(each) for each in value)}]"
     return json.dumps(value, ensure_ascii=False)
 
 

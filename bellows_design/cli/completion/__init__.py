@@ -1,0 +1,1 @@
+"""What a shell completes: names and files, found without any of the heavy libraries."""

@@ -1,0 +1,1 @@
+"""``bellows doctor``: whether everything that is needed is there and works, and how to mend it."""

@@ -1,0 +1,81 @@
+"""The group of commands: panels in the order of the tasks, and one sentence for a mistake of usage.
+
+Of the library below it uses only what its versions have in common: a mistake is an exception with
+``format_message`` and ``exit_code``.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from typing import Any
+
+from typer.core import TyperGroup
+
+from bellows_design.cli.layout.asked import remember
+from bellows_design.cli.layout.mistakes import sentence_on
+from bellows_design.cli.layout.panels import PANELS
+from bellows_design.cli.layout.said import print_error
+
+ABORTED = 130
+
+
+class Commands(TyperGroup):
+    """A group whose mistakes are sentences, and whose help shows commands by task."""
+
+    def __init__(self, **settings: Any) -> None:
+        super().__init__(**settings)
+        for command in (self, *self.commands.values()):
+            _say_nothing_of_the_values_of_flags(command)
+
+    def list_commands(self, ctx: Any) -> list[str]:
+        """Names by panel; within a panel as they were registered."""
+        known = {panel: number for number, panel in enumerate(PANELS)}
+        names = super().list_commands(ctx)
+        return sorted(
+            names,
+            key=lambda name: known.get(getattr(self.commands[name], "rich_help_panel", ""), -1),
+        )
+
+    def resolve_command(self, ctx: Any, args: list[str]) -> Any:
+        """The command that ``args`` begin with, which is remembered."""
+        self.suggest_commands = False  # our sentence does
+        found = super().resolve_command(ctx, args)
+        above = "" if ctx.parent is None else f"{ctx.info_name} "
+        remember(f"{above}{found[0]}")
+        return found
+
+    def main(self, *positional: Any, **settings: Any) -> Any:
+        """Run the command and end with its status; a mistake of usage is one sentence."""
+        args = positional[0] if positional else settings.pop("args", None)
+        standalone = settings.pop("standalone_mode", True)
+        given = list(sys.argv[1:] if args is None else args)
+        remember("")
+        try:
+            status = super().main(args=given, standalone_mode=False, **settings)
+        except Exception as error:
+            status = self._mistaken(error, given)
+            if status is None:
+                raise
+        if not standalone:
+            return status
+        sys.exit(status if isinstance(status, int) else 0)
+
+    def _mistaken(self, error: Exception, given: Sequence[str]) -> int | None:
+        """The status after a sentence on the mistake; None if ``error`` is none of usage."""
+        if type(error).__name__ == "Abort":
+            return ABORTED
+        if not hasattr(error, "format_message"):
+            return None
+        status = int(getattr(error, "exit_code", 2))
+        if type(error).__name__ == "NoArgsIsHelpError":
+            print(error.format_message(), file=sys.stderr)
+            return status
+        print_error(sentence_on(error, given), status, "--json" in given)
+        return status
+
+
+def _say_nothing_of_the_values_of_flags(command: Any) -> None:
+    for parameter in command.params:
+        if getattr(parameter, "is_flag", False) and parameter.metavar is None:
+            parameter.metavar = ""

@@ -1,0 +1,1 @@
+"""Files to start from, and what there is to name in them."""

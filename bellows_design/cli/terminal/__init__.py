@@ -1,0 +1,1 @@
+"""What is printed for people: as wide as the terminal, in colours where these are wanted."""
