@@ -37,15 +37,6 @@ def bellows(design: Design) -> Callable[[cq.Workplane], cq.Workplane]:
     solids, not combined with earlier ones: that is what ``union`` and ``cut`` are for.
 
     Raises ``GeometryError`` if the CAD kernel cannot build the part.
-
-    Examples:
-        >>> import cadquery as cq
-        >>> from bellows_design import load_design
-        >>> from bellows_design.plugin import bellows
-        >>> places = cq.Workplane("YZ").pushPoints([(0, 0), (25, 0)])  # mm
-        >>> hand = places.invoke(bellows(load_design("prototype_1")))
-        >>> print(hand.solids().size(), "fingers")
-        2 fingers
     """
     solid = printed_part(
         design.bellows, design.indent, design.port, design.mount, design.fingertip
@@ -61,15 +52,6 @@ def register() -> None:
     """Add the method ``Workplane.bellows(design)`` to CadQuery for this process.
 
     Raises ``BellowsError``, and changes nothing, if the name is already taken by another.
-
-    Examples:
-        >>> import cadquery as cq
-        >>> from bellows_design import load_design
-        >>> from bellows_design.plugin import register
-        >>> register()
-        >>> part = cq.Workplane().bellows(load_design("prototype_1"))
-        >>> print(part.solids().size())
-        1
     """
     if getattr(cq.Workplane, METHOD, _method) is not _method:
         raise BellowsError(f"cadquery.Workplane.{METHOD} is there already and stays as it is")
