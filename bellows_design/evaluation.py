@@ -121,6 +121,15 @@ def evaluate(
             refuses, a first mesh that exceeds the budget, or ``near`` with a model, accuracy or
             pressures.
         MeshingError: No usable mesh, or none in time.
+
+    Examples:
+        >>> from bellows_design import evaluate, load_design
+        >>> found = evaluate(load_design("prototype_1"), pressures=[0.05])
+        >>> (at,) = found.curve
+        >>> print(f"{at.bending_angle_deg:.0f}°, {at.max_von_mises_mpa:.1f} MPa")
+        139°, 2.8 MPa
+        >>> print(f"± {found.error_estimate.bending_angle_percent:.1f} % of the angle")
+        ± 2.3 % of the angle
     """
     if isinstance(design, OwnBody):
         if model != "auto" or near is not None or keep:

@@ -41,6 +41,14 @@ class Outcome:
         withdrawn: Folder of an earlier approved export that this refusal took back.
         page: The report beside the approved files; None where none was made.
         no_page: Why the report that was asked for could not be made; empty if it was.
+
+    Examples:
+        >>> from bellows_design import examine, load_design
+        >>> outcome = examine(load_design("prototype_1"))
+        >>> print(outcome.verdict.approved, outcome.folder)  # refused, and nothing is written
+        False None
+        >>> print(outcome.verdict.reasons[0].message)
+        bubble_thickness 1.5 mm is 3.75 lines of 0.4 mm, not a whole number
     """
 
     design: Design
@@ -111,6 +119,14 @@ def run(
         PrintersError: The leak test is required, and the slicer here cannot be used.
         MeshingError: No usable mesh, or none in time.
         OSError: The files could not be written; then nothing has changed.
+
+    Examples:
+        >>> from bellows_design import load_design, run
+        >>> outcome = run(load_design("finger"), "exports")
+        >>> outcome.verdict.approved
+        True
+        >>> {".stl", ".3mf", ".step"} <= {path.suffix for path in outcome.folder.iterdir()}
+        True
     """
     from bellows_design.export.approved import require_place
 
@@ -149,6 +165,12 @@ def examine(
             printer.
         PrintersError: The leak test is required, and the slicer here cannot be used.
         MeshingError: No usable mesh, or none in time.
+
+    Examples:
+        >>> from bellows_design import examine, load_design
+        >>> found = examine(load_design("prototype_1"))
+        >>> print(sorted({reason.rule for reason in found.verdict.reasons}))
+        ['max_von_mises', 'wall_multiple', 'wall_multiple_measured']
     """
     from bellows_design.approval import decide, refused_for_want_of_a_slicer, with_leak_test
     from bellows_design.leak_test.record import LeakTest, Unavailable

@@ -74,6 +74,15 @@ class Computation(Generic[Subject]):
     the highest von Mises Cauchy stress in the ends; ``out_of_time`` that a finer mesh was wanted
     for which the budget's time did not suffice; ``workspace`` what the solve on the finest mesh
     left, where ``keep`` asks for it.
+
+    Examples:
+        >>> from bellows_design import evaluate, load_design
+        >>> computation = evaluate(load_design("prototype_1")).computation
+        >>> print(computation.model.name, len(computation.solved) > 1)
+        unit-cell True
+        >>> finest = computation.finest
+        >>> print(finest.displacement.shape == finest.problem.mesh.nodes.shape)
+        True
     """
 
     design: Subject

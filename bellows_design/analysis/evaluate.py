@@ -133,7 +133,17 @@ def _promising(estimates: Sequence[float | None]) -> bool:
 
 
 def evaluation_of(computation: Computation) -> Evaluation:
-    """The record of a computation."""
+    """The record of a computation.
+
+    Examples:
+        >>> from bellows_design import load_design
+        >>> from bellows_design.analysis.models import choose
+        >>> from bellows_design.evaluation import evaluation_of, started
+        >>> design = load_design("prototype_1")
+        >>> first = started(design, *choose(design))
+        >>> print(f"{evaluation_of(first).bending_angle_deg:.2g} degrees on the coarsest mesh")
+        2.2e+02 degrees on the coarsest mesh
+    """
     return Evaluation(
         **vars(loaded_state(computation)),
         design=computation.design,
@@ -210,6 +220,14 @@ def write_vtu(evaluation: Computed, path: Path | str) -> None:
     Raises:
         SolverError: A path with another ending.
         OSError: The file cannot be written.
+
+    Examples:
+        >>> from pathlib import Path
+        >>> from bellows_design import evaluate, load_design
+        >>> from bellows_design.evaluation import write_vtu
+        >>> write_vtu(evaluate(load_design("prototype_1")), "cell.vtu")  # for ParaView
+        >>> print(Path("cell.vtu").stat().st_size > 1000)
+        True
     """
     from bellows_design.files.atomic import replacing
     from solver import write_vtu as write

@@ -138,10 +138,18 @@ class Evaluation(LoadedState):
         solver: Load steps, iterations and factorizations of all solves.
         seconds: Time spent on geometry, meshes and solves, s.
         path: Readings along the load path.
-        curve: Readings at the pressures asked for; the design's is the last.
+        curve: Readings at the pressures asked for.
         computation: The solutions these values were taken from.
         from_cache: When it was computed (UTC), where it comes from the store of results; empty
             where it was computed now.
+
+    Examples:
+        >>> from bellows_design import evaluate, load_design
+        >>> found = evaluate(load_design("prototype_1"))
+        >>> print(found.converged, found.stable, f"{found.cavity_volume_mm3:.3g} mm³ of air")
+        True True 9.26e+03 mm³ of air
+        >>> print(found.reason)
+        7 bubbles deform alike: ...
     """
 
     design: Design

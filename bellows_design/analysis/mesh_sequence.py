@@ -106,6 +106,15 @@ def started(
         GeometryError: The CAD kernel cannot build the body.
         DesignError: The mesh would exceed the budget.
         MeshingError: No usable mesh, or none in time.
+
+    Examples:
+        >>> from bellows_design import load_design
+        >>> from bellows_design.analysis.models import choose
+        >>> from bellows_design.evaluation import started
+        >>> design = load_design("prototype_1")
+        >>> first = started(design, *choose(design))
+        >>> print(first.model.name, len(first.solved), "mesh")
+        unit-cell 1 mesh
     """
     from solver.linear.threads import may_run_side_by_side, one_thread
     from solver.meshing import process as meshing_process
@@ -143,6 +152,16 @@ def refined(
     Raises:
         DesignError: The mesh would exceed the computation's budget.
         MeshingError: No usable mesh, or none in time.
+
+    Examples:
+        >>> from bellows_design import load_design
+        >>> from bellows_design.analysis.models import choose
+        >>> from bellows_design.evaluation import refined, started
+        >>> design = load_design("prototype_1")
+        >>> coarse = started(design, *choose(design))
+        >>> fine = refined(coarse)
+        >>> print(len(fine.finest.problem.mesh.tets) > len(coarse.finest.problem.mesh.tets))
+        True
     """
     from solver import peak_von_mises
 

@@ -151,7 +151,7 @@ def path_readings(computation: Computation) -> tuple[Reading, ...]:
 
 
 def curve_readings(computation: Computation) -> tuple[Reading, ...]:
-    """Readings at the pressures asked for, on the finest mesh; the design's is the last."""
+    """Readings at the pressures asked for, on the finest mesh."""
     asked = computation.pressures
     wanted = (
         point

@@ -69,6 +69,15 @@ def force_curve(
         BellowsError: A scene that cannot be: an object within the finger, a wall or object that
             the finger does not reach at the last pressure.
         MeshingError: No usable mesh of the cell, or none in time.
+
+    Examples:
+        >>> from bellows_design import force_curve, load_design
+        >>> from bellows_design.design.scenes.blocked import Blocked
+        >>> design = load_design("prototype_1")
+        >>> found = force_curve(design, Blocked(), (0.05, 0.1), by_distance=False)
+        >>> weak, strong = found.curve
+        >>> print(found.converged, strong.force_n > weak.force_n > 0)  # N
+        True True
     """
     _require_path(pressures, flow)
     if isinstance(law, FingerLaw):

@@ -67,6 +67,16 @@ class Neighbourhood:
 
     It holds the factors of two tangents, at the ordinary evaluation and at the last design, about a
     hundred megabytes each for five thousand tetrahedra.
+
+    Examples:
+        >>> from bellows_design import evaluate, load_design, varied
+        >>> from bellows_design.evaluation import Neighbourhood
+        >>> design = load_design("prototype_1")
+        >>> session = Neighbourhood(evaluate(design))  # once
+        >>> designs = [varied(design, {"bubble_width": width}) for width in (19.8, 20.2)]
+        >>> near = [session.evaluate(each) for each in designs]
+        >>> print(near[0].bending_angle_deg < near[1].bending_angle_deg)  # degrees
+        True
     """
 
     def __init__(self, anchor: Evaluation) -> None:

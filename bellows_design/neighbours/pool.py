@@ -20,6 +20,15 @@ class Pool:
 
     A design that none is near to is evaluated ordinarily, and begins a neighbourhood of its own. A
     session of one model, that grows while it is used.
+
+    Examples:
+        >>> from bellows_design import load_design, varied
+        >>> from bellows_design.evaluation import Pool
+        >>> pool, design = Pool(), load_design("prototype_1")
+        >>> designs = [varied(design, {"bubble_width": width}) for width in (20.0, 20.1)]
+        >>> found = [pool.evaluate(each) for each in designs]
+        >>> print([each.fallback == "" for each in found])  # the first has no neighbour
+        [False, True]
     """
 
     def __init__(self, model: str = "auto", most: int = MOST) -> None:

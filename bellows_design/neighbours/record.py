@@ -35,6 +35,13 @@ class NeighbourEvaluation(LoadedState):
         solution: Equilibrium of the model's body.
         neighbourhood: Where the next neighbour starts from; None after a ``fallback``, which begins
             a new one.
+
+    Examples:
+        >>> from bellows_design import evaluate, load_design, varied
+        >>> design = load_design("prototype_1")
+        >>> found = evaluate(varied(design, {"bubble_width": 20.2}), near=evaluate(design))
+        >>> print(found.fallback == "", f"distance {found.distance:.2f}")
+        True distance 0.01
     """
 
     ordinary: ClassVar[bool] = False

@@ -136,6 +136,13 @@ def sensitivities(found: Evaluation | NeighbourEvaluation) -> Sensitivities:
         DesignError: The evaluation did not reach its pressure, or its walls run through each other.
         SolverError: The state is at a limit point.
         BellowsError: The mesh is none of the body's.
+
+    Examples:
+        >>> from bellows_design import evaluate, load_design, sensitivities
+        >>> table = sensitivities(evaluate(load_design("prototype_1"), keep=True))
+        >>> width = table.of("bubble_width")
+        >>> print("degrees per", width.unit, width.derivatives["bending_angle_deg"] > 0)
+        degrees per mm True
     """
     began = time.perf_counter()
     at = _equilibrium(found)

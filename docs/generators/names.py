@@ -76,7 +76,7 @@ def _entry(package: str, public: str, found: object) -> str:
         return f".. autoclass:: {package}.{public}\n   :members:\n   :exclude-members: {fields}\n"
     if callable(found):
         return f".. autofunction:: {package}.{public}\n"
-    return f".. autodata:: {HOMES[public]}\n   :no-value:\n"
+    return f".. autodata:: {HOMES.get(public, f'{package}.{public}')}\n   :no-value:\n"
 
 
 def _fields(found: type) -> list[str]:

@@ -15,6 +15,7 @@ from typing import Any
 
 import cadquery as cq
 import pytest
+
 from generators.names import PACKAGES, public_names
 
 SLOW = {
@@ -38,9 +39,6 @@ SLOW = {
 }
 """Names whose examples evaluate or check a whole design."""
 
-VALUES = {"RULES"}
-"""Names of values, whose descriptions stand in the modules that define them."""
-
 UNITS = re.compile(
     r"\bmm\b|\bmm[³^²]|\bN\b|\bMPa\b|\bdegrees?\b|°|\bpercent\b|%|\bs\b|\bGiB\b|g/cm³|\brad\b"
     r"|without unit|fractions?\b|counts?\b"
@@ -50,13 +48,13 @@ NUMBERS = re.compile(r"\b(?:float|Reals|Floats|Vector|Millimetres|NDArray\[np\.f
 
 @cache
 def names() -> dict[str, tuple[str, Any]]:
-    """Every public object once: its test's name, the package it is first offered by, and itself."""
+    """Every public class and function once: the package it is first offered by, and itself."""
     found: dict[int, tuple[str, str, Any]] = {}
     for package in PACKAGES:
         module = import_module(package)
         for name in public_names(module):
             at = getattr(module, name)
-            if name not in VALUES:
+            if callable(at):
                 found.setdefault(id(at), (name, package, at))
     return {f"{package}.{name}": (package, at) for name, package, at in found.values()}
 

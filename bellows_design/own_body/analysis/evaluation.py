@@ -95,6 +95,23 @@ class BodyEvaluation:
             the volume is given, of the finest.
         curve: Readings at the pressures or volumes asked for, on the finest mesh.
         computation: The solutions these values were taken from.
+
+    Examples:
+        >>> import cadquery as cq
+        >>> from bellows_design import OwnBody, evaluate
+        >>> hollow = cq.Solid.makeBox(30, 3, 4, cq.Vector(5, 1, 4))
+        >>> bar = cq.Solid.makeBox(40, 5, 10).cut(hollow)
+        >>> body = OwnBody(
+        ...     name="bar",
+        ...     parts=[{"name": "bar", "solid": bar, "material": "ecoflex_00_30"}],
+        ...     surfaces={"root": "<X", "tip": ">X", "cavity": {"inner": True}},
+        ...     load={"pressure": 0.002},  # MPa
+        ... )
+        >>> found = evaluate(body)
+        >>> print(found.converged, found.end.cavity_volume_mm3 > 360)  # mm³, the volume at rest
+        True True
+        >>> print([part.name for part in found.parts])
+        ['bar']
     """
 
     body: OwnBody

@@ -332,14 +332,6 @@ def test_the_readme_installs_what_the_program_asks_for() -> None:
     assert "pip install -e ." in readme and "'.[test]'" in readme
 
 
-def test_the_readmes_python_example_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    readme = (ROOT / "README.md").read_text("utf-8")
-    (example,) = re.findall(r"```python\n(.*?)```", readme, flags=re.DOTALL)
-    monkeypatch.chdir(tmp_path)
-    exec(compile(example, "README.md", "exec"), {})
-    assert [path.name for path in tmp_path.iterdir()] == ["prototype_2_changed.stl"]
-
-
 def test_the_version_is_the_packages() -> None:
     import bellows_design
 
