@@ -16,8 +16,10 @@ def _ran(folder: Path, *options: str) -> list[str]:
         text = "def test_one():\n    pass\n\n\ndef test_two():\n    pass\n"
         folder.joinpath(f"test_file_{number}.py").write_text(text)
     found = subprocess.run(
-        [sys.executable, "-m", "pytest", "-v", "-p", "sampled", "-c", os.devnull]
-        + ["--rootdir", str(folder), *options, str(folder)],
+        [
+            *(sys.executable, "-m", "pytest", "-v", "-p", "sampled", "-c", os.devnull),
+            *("--rootdir", str(folder), *options, str(folder)),
+        ],
         capture_output=True,
         text=True,
         env={**os.environ, "PYTHONPATH": str(SUPPORT)},
