@@ -15,6 +15,7 @@ from bellows_design.deformed.joined.state import ActuatorState, BodyState
 from bellows_design.deformed.solved import Found, SolvedBodies, anchor_of, reached
 from bellows_design.deformed.surface import SurfaceFrames
 from bellows_design.deformed.whole import Whole, WholeSurface, stress_of, whole_of
+from bellows_design.errors import DesignError
 from bellows_design.neighbours.record import NeighbourEvaluation
 from solver.arrays import Reals
 from solver.mesh.mesh import Mesh
@@ -81,6 +82,9 @@ def deformed_surface(found: Found) -> SurfaceFrames:
 class Assembly:
     """How the whole actuator follows from what was solved, for an evaluation and its neighbours.
 
+    What is asked for it must be that evaluation, or have it as ``anchor``; a neighbour that was
+    evaluated by itself (``fallback``) has another one. Else a ``DesignError`` says so.
+
     Attributes:
         anchor: The ordinary evaluation that meshes and ends are of.
         whole: Which nodes of the solved bodies make up the actuator.
@@ -123,6 +127,11 @@ class Assembly:
         )
 
     def _state(self, found: Found) -> ActuatorState:
+        if anchor_of(found) is not self.anchor:
+            raise DesignError(
+                f"assembly: the evaluation of {found.design.name} has other meshes: make an "
+                "Assembly of that evaluation, or of its anchor."
+            )
         if found.design == self.anchor.design:
             return self._reached
         assert isinstance(found, NeighbourEvaluation)

@@ -10,6 +10,7 @@ from closed_surfaces import open_edges, volume_of_cells
 
 from bellows_design.deformed import Assembly, deformed_surface
 from bellows_design.design.overrides import with_overrides
+from bellows_design.errors import DesignError
 from bellows_design.evaluation import Evaluation, NeighbourEvaluation, evaluate
 from bellows_design.geometry.actuator import full_body
 from solver import Mesh, rotation
@@ -58,3 +59,9 @@ def test_one_assembly_serves_all(neighbour: NeighbourEvaluation, evaluated: Eval
         alone, kept = deformed_surface(found), assembly.surface(found)
         assert np.array_equal(alone.positions, kept.positions)
         assert np.array_equal(alone.von_mises, kept.von_mises)
+
+
+def test_an_assembly_refuses_what_has_other_meshes(evaluated: Evaluated) -> None:
+    assembly = Assembly.of(evaluated("two bubbles"))
+    with pytest.raises(DesignError, match="has other meshes: make an Assembly of that evaluation"):
+        assembly.surface(evaluated("three bubbles"))
