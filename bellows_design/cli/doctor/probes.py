@@ -118,11 +118,11 @@ def display() -> Iterator[Said]:
     yield {"begins": "pyvista"}
     import pyvista
 
-    plotter = pyvista.Plotter(off_screen=True, window_size=(40, 40))
+    plotter = pyvista.Plotter(off_screen=True, window_size=[40, 40])
     plotter.add_mesh(pyvista.Sphere(theta_resolution=6, phi_resolution=6))
     picture = plotter.screenshot(return_img=True)
     plotter.close()
-    yield {"module": "pyvista", "works": bool(picture.std() > 0)}
+    yield {"module": "pyvista", "works": picture is not None and bool(picture.std() > 0)}
 
 
 PROBES: Mapping[str, Callable[[], Iterator[Said]]] = {
