@@ -37,7 +37,7 @@ def cad() -> Iterator[Said]:
     yield {"begins": "cadquery"}
     import cadquery
 
-    volume = cadquery.Workplane().box(1, 2, 3).val().Volume()
+    volume = cadquery.Solid.makeBox(1, 2, 3).Volume()
     yield {"module": "cadquery", "works": abs(volume - 6) < 1e-9}
 
 
@@ -101,15 +101,16 @@ def compiler() -> Iterator[Said]:
 
     from solver.numerics.compiled import cache_folder
 
-    folder = cache_folder(numba.config.CACHE_DIR)
+    settings: Any = numba.config
+    folder = cache_folder(settings.CACHE_DIR)
     compiled = numba.njit(lambda x: x + 1)
     yield {
         "module": "numba",
         "works": compiled(1) == 2,
         "folder": folder,
         "writable": bool(folder) and os.access(folder, os.W_OK),
-        "threads": numba.config.NUMBA_NUM_THREADS,
-        "layer": numba.config.THREADING_LAYER,
+        "threads": settings.NUMBA_NUM_THREADS,
+        "layer": settings.THREADING_LAYER,
     }
 
 
