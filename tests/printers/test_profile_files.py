@@ -17,9 +17,15 @@ from printers.library.reading import LARGEST_FILE
 PROFILES = Path(printers.__file__).parent / "profiles"
 
 
-@pytest.mark.parametrize("name", ["ender", "../profiles/prusa_i3", "", "/etc/passwd"])
+@pytest.mark.parametrize("name", ["delta", "../profiles/prusa_i3", "", "/etc/passwd"])
 def test_an_unknown_name_is_answered_with_the_known_ones(name: str) -> None:
     with pytest.raises(PrintersError, match=r"known: .*prusa_i3"):
+        load_profile(name)
+
+
+@pytest.mark.parametrize(("name", "near"), [("prusa_i4", "prusa_i3"), ("ender", "ender_3_s1")])
+def test_an_unknown_name_is_answered_with_the_one_that_is_near(name: str, near: str) -> None:
+    with pytest.raises(PrintersError, match=f"did you mean {near}"):
         load_profile(name)
 
 

@@ -8,7 +8,7 @@ from typing import Any
 
 from bellows_design.cli.doctor.finding import Finding, Verdict
 from bellows_design.cli.doctor.libraries import how_to_mend
-from bellows_design.cli.doctor.trying import Tried
+from bellows_design.cli.doctor.trying import LATE, Tried
 
 GROUP = "computing"
 MOST_SECONDS = 2.0
@@ -25,12 +25,19 @@ def linear_solver(tried: Mapping[str, Tried]) -> Finding:
     """Which one is used, and its time for a small system."""
     said, why = _answer(tried, "solver", "linear solver")
     if not said.get("works"):
-        error = str(said.get("error") or why or "its solution is wrong")
-        return Finding(GROUP, "linear solver", "fail", error, how_to_mend(error, "scipy"))
+        return _broken("linear solver", said, why or "its solution is wrong", "scipy")
     name, seconds = str(said["solver"]), float(said["seconds"])
     shown = f"{name}, {said['unknowns']} unknowns in {1000 * seconds:.0f} ms"
     mend, verdict = _faster(name), _verdict_on(name, seconds)
     return Finding(GROUP, "linear solver", verdict, shown, mend if verdict == "warn" else "")
+
+
+def _broken(name: str, said: Mapping[str, Any], why: str, package: str) -> Finding:
+    """What does not work; a warning where it only did not answer in time."""
+    error = " ".join(str(said.get("error") or why).split())[:200]
+    if error.startswith(LATE):
+        return Finding(GROUP, name, "warn", error, "the machine is busy: try again later")
+    return Finding(GROUP, name, "fail", error, how_to_mend(error, package))
 
 
 def _verdict_on(name: str, seconds: float) -> Verdict:
@@ -48,8 +55,7 @@ def compiled_functions(tried: Mapping[str, Tried]) -> Finding:
     """Where they are kept, so that they are compiled once."""
     said, why = _answer(tried, "compiler", "numba")
     if not said.get("works"):
-        error = str(said.get("error") or why or "a compiled function is wrong")
-        return Finding(GROUP, "compiled functions", "fail", error, how_to_mend(error, "numba"))
+        return _broken("compiled functions", said, why or "a compiled function is wrong", "numba")
     folder = str(said["folder"])
     if said["writable"]:
         return Finding(GROUP, "compiled functions", "ok", f"kept in {folder}")

@@ -8,7 +8,7 @@ import sys
 from collections.abc import Iterator, Mapping
 from importlib.metadata import PackageNotFoundError, requires, version
 
-from bellows_design.cli.doctor.finding import Finding
+from bellows_design.cli.doctor.finding import Finding, Verdict
 from bellows_design.cli.doctor.trying import LATE, Tried
 from bellows_design.cli.system_libraries import missing_library
 
@@ -77,7 +77,7 @@ def extras() -> Iterator[Finding]:
         if not missing:
             yield Finding("extras", name, "ok", ", ".join(there))
             continue
-        verdict = "ok" if name in DEVELOPERS else "warn"
+        verdict: Verdict = "ok" if name in DEVELOPERS else "warn"
         said = f"{', '.join(missing)} not installed"
         mend = f"pip install -e '.[{name}]'" if verdict == "warn" else ""
         yield Finding("extras", name, verdict, said, mend)

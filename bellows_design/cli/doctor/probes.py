@@ -37,7 +37,7 @@ def cad() -> Iterator[Said]:
     yield {"begins": "cadquery"}
     import cadquery
 
-    volume = cadquery.Workplane().box(1, 2, 3).val().Volume()
+    volume = cadquery.Solid.makeBox(1, 2, 3).Volume()
     yield {"module": "cadquery", "works": abs(volume - 6) < 1e-9}
 
 
@@ -101,15 +101,16 @@ def compiler() -> Iterator[Said]:
 
     from solver.numerics.compiled import cache_folder
 
-    folder = cache_folder(numba.config.CACHE_DIR)
+    settings: Any = numba.config
+    folder = cache_folder(settings.CACHE_DIR)
     compiled = numba.njit(lambda x: x + 1)
     yield {
         "module": "numba",
         "works": compiled(1) == 2,
         "folder": folder,
         "writable": bool(folder) and os.access(folder, os.W_OK),
-        "threads": numba.config.NUMBA_NUM_THREADS,
-        "layer": numba.config.THREADING_LAYER,
+        "threads": settings.NUMBA_NUM_THREADS,
+        "layer": settings.THREADING_LAYER,
     }
 
 
@@ -118,11 +119,11 @@ def display() -> Iterator[Said]:
     yield {"begins": "pyvista"}
     import pyvista
 
-    plotter = pyvista.Plotter(off_screen=True, window_size=(40, 40))
+    plotter = pyvista.Plotter(off_screen=True, window_size=[40, 40])
     plotter.add_mesh(pyvista.Sphere(theta_resolution=6, phi_resolution=6))
     picture = plotter.screenshot(return_img=True)
     plotter.close()
-    yield {"module": "pyvista", "works": bool(picture.std() > 0)}
+    yield {"module": "pyvista", "works": picture is not None and bool(picture.std() > 0)}
 
 
 PROBES: Mapping[str, Callable[[], Iterator[Said]]] = {

@@ -114,12 +114,13 @@ def test_what_is_slow_or_not_drawn_is_a_warning(
         solver=Tried(said={"linear solver": slow}),
         display=Tried(broken={"pyvista": "it ended by signal 6"}),
         cad=Tried(broken={"cadquery": f"{LATE} 20 s"}),
+        compiler=Tried(broken={"numba": f"{LATE} 20 s"}),
     )
     status, found = findings(bellows)
     assert status == 0
     assert "pip install mkl" in found["linear solver"]["mend"]
     assert "libegl1" in found["pictures by VTK"]["mend"]
-    assert found["cadquery"]["verdict"] == "warn"
+    assert found["cadquery"]["verdict"] == found["compiled functions"]["verdict"] == "warn"
 
 
 def test_an_examination_that_fails_itself_is_a_warning_and_the_rest_goes_on(
