@@ -298,7 +298,11 @@ def keep(output: Path | None, moves: list[Move], late: list[float]) -> dict[str,
     """The summary; it and the moves are written, also before the long comparison."""
     found = summary(moves, late)
     if output is not None:
-        content = {"machine": machine(), "summary": found, "moves": [asdict(m) for m in moves]}
+        content = {
+            "machine": asdict(machine()),
+            "summary": found,
+            "moves": [asdict(m) for m in moves],
+        }
         output.write_text(json.dumps(content, indent=1) + "\n", "utf-8")
     return found
 
