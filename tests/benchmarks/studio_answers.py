@@ -4,7 +4,8 @@
         [--output F]
 
 Random moves from a fixed seed: seven of ten by up to a tenth of the slider's range, two by up to a
-third, one to anywhere. A move that makes no valid design is undone. Times are from the message
+third, one to anywhere; after five moves it begins anew at the opened design. A move that makes no
+valid design is undone. Times are from the message
 ``rest`` to the message ``answer``. The answers of every tenth move and of the slowest ones are
 compared with ordinary evaluations of the designs as they are saved. The server also measures by how
 much its event loop is late.
@@ -39,6 +40,9 @@ REACHES = ((0.7, 0.1), (0.9, 1 / 3), (1.0, 1.0))
 
 INPUTS, REST, PAUSE, TICK = 6, 0.12, 3.0, 0.01
 """Messages of one move; s: until rest, between moves, between two looks at the clock."""
+
+WALK = 5
+"""Moves before it begins anew."""
 
 LONGEST = 60.0
 """s. No answer and no explanation by then counts as stuck."""
@@ -163,7 +167,9 @@ async def drive(address: str, design: str, moves: int) -> list[Move]:
             names = [
                 each for each in client.start["parameters"] if not each["name"].startswith(LEFT_OUT)
             ]
-            for _ in range(moves):
+            for number in range(moves):
+                if number % WALK == 0:
+                    client.values = {}
                 slider = chance.choice(names)
                 former = dict(client.values)
                 move = await client.move(slider["name"], target(slider, client, chance))

@@ -20,6 +20,13 @@ SPLIT = np.array([[0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5]])
 """A triangle of six nodes as four of three."""
 
 
+COPIES = 4
+"""Of the cell in a bubble."""
+
+MOST_TRIANGLES = 80_000
+"""Of an actuator's bubbles: so many are moved, packed and sent within 50 ms."""
+
+
 @dataclass(frozen=True)
 class Shape:
     """Triangles (m, 3) counter-clockwise from outside, of points (n, 3), mm."""
@@ -44,10 +51,16 @@ def compacted(shape: Shape) -> Shape:
     return Shape(shape.points[used], numbers.reshape(shape.triangles.shape).astype(np.int32))
 
 
-def triangles_of(mesh: Mesh) -> Integers:
-    """Outside and cavity of a mesh as triangles of three points, (m, 3)."""
-    six = np.concatenate([mesh.surfaces[OUTSIDE], mesh.surfaces[CAVITY]])
-    return np.concatenate([six[:, corners] for corners in SPLIT])
+def sides_of(mesh: Mesh) -> Integers:
+    """Outside and cavity of a mesh as triangles of six nodes, (m, 6)."""
+    return np.concatenate([mesh.surfaces[OUTSIDE], mesh.surfaces[CAVITY]])
+
+
+def triangles_of(sides: Integers, bubbles: int) -> Integers:
+    """Triangles of three points, (k, 3): four of each, or one where there are many bubbles."""
+    if COPIES * bubbles * len(SPLIT) * len(sides) > MOST_TRIANGLES:
+        return sides[:, :3]
+    return np.concatenate([sides[:, corners] for corners in SPLIT])
 
 
 def chained(cell: Shape, design: Design) -> Shape:

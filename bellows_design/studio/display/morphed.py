@@ -10,7 +10,7 @@ import numpy as np
 from bellows_design.design.design import Design
 from bellows_design.design.topology import same_topology
 from bellows_design.neighbours.bubbles import of_count
-from bellows_design.studio.display.chained import Shape, chained, compacted, triangles_of
+from bellows_design.studio.display.chained import Shape, chained, compacted, sides_of, triangles_of
 
 if TYPE_CHECKING:
     from bellows_design.morphing.morpher import Morpher
@@ -29,14 +29,14 @@ class MovedCell:
 
     design: Design
     morpher: Morpher
-    triangles: Integers
+    sides: Integers
 
     @staticmethod
     def of(design: Design, mesh: Mesh) -> MovedCell:
         """From any mesh of the cell. Raises ``ForeignMesh``."""
         from bellows_design.morphing.morpher import Morpher
 
-        return MovedCell(design, Morpher.of(design, MODEL, mesh), triangles_of(mesh))
+        return MovedCell(design, Morpher.of(design, MODEL, mesh), sides_of(mesh))
 
     def fits(self, design: Design) -> bool:
         """Whether a design's cell has the same faces, however many bubbles there are."""
@@ -46,7 +46,8 @@ class MovedCell:
         """The whole actuator's surface. Raises ``NoNeighbour``."""
         points = np.array(self.morpher.mesh.nodes)
         points[self.morpher.skin.nodes] = self.morpher.boundary_of(self._counted(design))
-        return chained(compacted(Shape(points, self.triangles)), design)
+        triangles = triangles_of(self.sides, design.bellows.bubble_count)
+        return chained(compacted(Shape(points, triangles)), design)
 
     def _counted(self, design: Design) -> Design:
         return of_count(design, self.design.bellows.bubble_count)

@@ -91,9 +91,9 @@ class Session:
         if revision not in self._values:
             raise DesignError("this design is no more known: save it from the page again.")
         found: list[Event] = []
-        content = self._design(revision)
-        job = Job(self.number, "toml", "toml", content, lambda event, _: found.append(event))
-        outcome, why = await self._lanes.quick.submit(job).outcome
+        topic, content = f"toml {next(_numbers)}", self._design(revision)
+        job = Job(self.number, topic, "toml", content, lambda event, _: found.append(event))
+        outcome, why = await _ended(self._lanes.quick.submit(job))
         if not found:
             raise DesignError(why or outcome)
         return found[0]
@@ -130,16 +130,17 @@ class Session:
     async def _follow_up(self) -> None:
         """All that follows once the sliders rest, as long as the design stays."""
         if self._changing is not None:
-            await self._changing.outcome
+            outcome, why = await _ended(self._changing)
+            if outcome in ("failed", "crashed"):
+                self.fail("change", why)
         if not self._valid:
             return
-        outcome, why = await self._submit(self._lanes.preview, "preview", "preview", {}).outcome
+        outcome, why = await _ended(self._submit(self._lanes.preview, "preview", "preview", {}))
         if outcome in ("failed", "crashed"):
             self._send("working", self._revision, what="preview", message=why, fraction=None)
         self._lanes.warm()
         for stage in STAGES:
-            job = self._submit(self._lanes.background, stage, stage, {})
-            outcome, why = await job.outcome
+            outcome, why = await _ended(self._submit(self._lanes.background, stage, stage, {}))
             if outcome in ("failed", "crashed"):
                 self.fail(stage, why)
 
@@ -161,7 +162,7 @@ class Session:
         return {"base": self._base, "values": self._values[revision]}
 
     async def _told_if_failed(self, job: Job, what: str, revision: int) -> Outcome:
-        outcome, why = await job.outcome
+        outcome, why = await _ended(job)
         if outcome in ("failed", "crashed"):
             self.fail(what, why, revision)
         return outcome
@@ -217,3 +218,9 @@ class Session:
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
         return task
+
+
+async def _ended(job: Job) -> tuple[Outcome, str]:
+    """What became of a job. Who no longer waits for it does not end it for others."""
+    await asyncio.wait([job.outcome])
+    return job.outcome.result()

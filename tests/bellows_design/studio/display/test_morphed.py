@@ -77,6 +77,15 @@ def test_there_are_as_many_bubbles_as_the_design_has() -> None:
     assert len(counts) == 2 and all(count == shown for count, shown in counts.items())
 
 
+def test_many_bubbles_are_drawn_by_fewer_triangles_each() -> None:
+    few, many = (
+        cell().shape_of(changed(BASE, {"length": length, "number_of_bubbles": count}))
+        for length, count in ((50.0, 4), (400.0, 60))
+    )
+    each = [len(shape.triangles) / count for shape, count in ((few, 4), (many, 60))]
+    assert each[1] < each[0] / 3
+
+
 def test_triangles_look_outward_everywhere() -> None:
     """So the mirrored copies do too: the whole encloses its material, the ends included."""
     shape = cell().shape_of(BASE)

@@ -136,6 +136,17 @@ def test_rest_of_an_older_revision_is_ignored(tmp_path: Path) -> None:
     in_loop(tmp_path, check)
 
 
+def test_resting_again_at_the_same_design_is_answered_too(tmp_path: Path) -> None:
+    async def check(page: Page) -> None:
+        page.tell("change", 1, values={})
+        for _ in range(3):
+            page.tell("rest", 1)
+            await asyncio.sleep(0.001)
+        await page.until("sensitivities", revision=1)
+
+    in_loop(tmp_path, check)
+
+
 def test_invalid_values_are_explained_and_nothing_is_solved(tmp_path: Path) -> None:
     async def check(page: Page) -> None:
         page.tell("change", 1, values={"stub": "invalid"})
