@@ -274,6 +274,22 @@ def test_joints_that_are_divided_otherwise_are_closed_and_open_ends_are_not(
             assert found["section"]["caps"] == int(expected)
 
 
+def test_thin_triangles_make_no_sharp_edges(browser: Browser, tmp_path: Path) -> None:
+    """Along a diagonal of the top two triangles 0.4 µm wide stand steeply, 2 µm high."""
+    points, triangles = block(40, 10, 10)
+    middle, aside = np.array([20.0, 5.0, 10.0]), np.array([1.0, -4.0, 0.0]) * 2e-4 / 17**0.5
+    p, q = 8, 9
+    everything = np.vstack([points, middle + aside, middle - aside + [0, 0, 2e-3]])
+    top = [(7, 6, p), (7, p, 4), (6, 5, q), (5, 4, q), (p, 6, q), (p, q, 4)]
+    parted = np.array([tri for tri in triangles.tolist() if set(tri) - {4, 5, 6, 7}] + top)
+    surfaces = [Surface("block", triangles, points), Surface("parted", parted, everything)]
+    with shown(browser, tmp_path, [*surfaces]) as page:
+        assert [(each["closed"], each["sharp_edges"]) for each in state(page)["surfaces"]] == [
+            (True, 12),
+            (True, 12),
+        ]
+
+
 def test_the_section_s_slider_and_axis_move_the_plane(browser: Browser, tmp_path: Path) -> None:
     with shown(browser, tmp_path, [sheared()]) as page:
         offset = page.get_by_label("Place of the section, mm")
