@@ -199,7 +199,8 @@ function margin(value, percent, decimals) {
 
 function difference(value, pinned, unit) {
   if (pinned === null || pinned === undefined || Number.isNaN(pinned)) return "";
-  return `${withUnit(signed(value - pinned, 3), unit)} against the pinned design`;
+  const text = signed(value - pinned, unit === "°" ? 3 : 2);
+  return `${withUnit(text, unit)} against the pinned design`;
 }
 
 function spoken(answer) {
