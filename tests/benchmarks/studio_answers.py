@@ -5,10 +5,10 @@
 
 Random moves from a fixed seed: seven of ten by up to a tenth of the slider's range, two by up to a
 third, one to anywhere; after five moves it begins anew at the opened design. A move that makes no
-valid design is undone. Times are from the message
-``rest`` to the message ``answer``. The answers of every tenth move and of the slowest ones are
-compared with ordinary evaluations of the designs as they are saved. The server also measures by how
-much its event loop is late.
+valid design is undone. Times are from the message ``rest`` to the message ``answer``; beside them
+the time of all processors that the studio's processes took meanwhile. Some answers, evenly spread,
+and the slowest are compared with ordinary evaluations of the designs as they are saved. The server
+also measures by how much its event loop is late.
 """
 
 from __future__ import annotations
@@ -191,7 +191,7 @@ def target(slider: dict[str, Any], client: Client, chance: random.Random) -> flo
     kind = chance.random()
     reach = next(far for share, far in REACHES if kind <= share) * (high - low)
     there = min(high, max(low, now + chance.uniform(-reach, reach)))
-    return round(round(there / step) * step, 6)
+    return round(round(there / step) * step, 6) + 0.0
 
 
 async def saved(web: aiohttp.ClientSession, address: str, client: Client) -> str:
@@ -289,8 +289,22 @@ def run(arguments: argparse.Namespace) -> dict[str, Any]:
         options = Options(load_design(arguments.design), browser=False, output=Path(folder))
         with suppress(KeyboardInterrupt):  # once the moves are over
             serve(options, told)
+    keep(arguments.output, moves, late)
     check(moves, arguments.check)
-    return {"summary": summary(moves, late), "moves": [asdict(move) for move in moves]}
+    return keep(arguments.output, moves, late)
+
+
+def keep(output: Path | None, moves: list[Move], late: list[float]) -> dict[str, Any]:
+    """The summary; it and the moves are written, also before the long comparison."""
+    found = summary(moves, late)
+    if output is not None:
+        content = {
+            "machine": asdict(machine()),
+            "summary": found,
+            "moves": [asdict(m) for m in moves],
+        }
+        output.write_text(json.dumps(content, indent=1) + "\n", "utf-8")
+    return found
 
 
 def main() -> None:
@@ -305,11 +319,7 @@ def main() -> None:
         moves = asyncio.run(drive(arguments.drive, arguments.design, arguments.moves))
         print(json.dumps({"moves": [asdict(move) for move in moves]}), flush=True)
         return
-    found = run(arguments)
-    print(json.dumps(found["summary"], indent=2))
-    if arguments.output is not None:
-        content = {"machine": machine(), **found}
-        arguments.output.write_text(json.dumps(content, indent=1) + "\n", "utf-8")
+    print(json.dumps(run(arguments), indent=2))
 
 
 if __name__ == "__main__":
