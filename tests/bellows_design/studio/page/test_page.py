@@ -100,7 +100,7 @@ def test_text_that_is_no_possible_number_is_refused_beside_its_field(
     assert len(studio.received) == before
 
 
-def test_changes_hold_only_what_differs_and_one_rest_follows_them(
+def test_changes_hold_only_what_differs_and_a_rest_follows_the_last(
     page: Any, studio: PretendedStudio
 ) -> None:
     studio.received.clear()
@@ -109,8 +109,9 @@ def test_changes_hold_only_what_differs_and_one_rest_follows_them(
         page.keyboard.press("ArrowRight")
     _settle(page)
     assert studio.last("change")["values"] == {"bubble_width": 20.5}
-    rests = [each for each in studio.received if each["type"] == "rest"]
-    assert [rest["revision"] for rest in rests] == [studio.last("change")["revision"]]
+    rests = [each["revision"] for each in studio.received if each["type"] == "rest"]
+    assert rests[-1] == studio.last("change")["revision"]
+    assert rests == sorted(set(rests))
     revisions = [each["revision"] for each in studio.received]
     assert revisions == sorted(revisions)
 
@@ -156,6 +157,20 @@ def test_invalid_combination_is_explained_beside_its_slider(page: Any) -> None:
     _expect_angle(page, _design())
     assert page.locator("#stage-view.dimmed").count() == 0
     assert row.locator(".problem").is_hidden()
+
+
+def test_shape_that_follows_leaves_the_one_before_pale(page: Any, studio: PretendedStudio) -> None:
+    studio.held = True
+    _type(page, "bubble_height", "24")
+    _settle(page, "computing")
+    revision = studio.last("rest")["revision"]
+    studio.say("shape_follows", revision=revision, why="the shape has other faces than before")
+    page.locator("#stage-view.dimmed").wait_for()
+    assert "follows" in page.locator("#view-note").inner_text()
+    studio.held = False
+    _type(page, "bubble_height", "25")
+    _settle(page)
+    assert page.locator("#stage-view.dimmed").count() == 0
 
 
 def test_undo_and_redo_walk_through_the_rests(page: Any) -> None:

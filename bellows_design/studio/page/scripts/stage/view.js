@@ -23,6 +23,7 @@ export class View extends EventTarget {
   #ghost = null; // {rest, deformed}
   #box = null; // that the camera was turned to
   #frame = 0;
+  #awaited = null; // revision whose shape at rest follows later
 
   mode = "pressure"; // or "printed"
   blend = 1;
@@ -36,6 +37,7 @@ export class View extends EventTarget {
     this.#note = note;
     session.addEventListener("start", () => (this.#box = null));
     session.addEventListener("shape", (event) => this.#take(event.detail, "rest"));
+    session.addEventListener("shape_follows", (event) => this.#wait(event.detail.header));
     session.addEventListener("deformed", (event) => this.#take(event.detail, "deformed"));
     session.addEventListener("state", () => this.#showState());
   }
@@ -138,15 +140,33 @@ export class View extends EventTarget {
     step(begin);
   }
 
+  /** The design has other faces than what is shown: it is pale until its own shape is there. */
+  #wait({ revision }) {
+    this.#awaited = revision;
+    this.#showState();
+  }
+
+  get #isAwaited() {
+    return this.#awaited === this.#session.revision && !this.#isKnown;
+  }
+
+  get #isKnown() {
+    const { rest, deformed } = this.#known;
+    return [rest, deformed].some((each) => each?.revision === this.#session.revision);
+  }
+
   /** What is seen, and whether it is the design on the sliders. */
   #showState() {
     const { state } = this.#session;
-    this.#host.classList.toggle("dimmed", state === "invalid");
+    this.#host.classList.toggle("dimmed", state === "invalid" || this.#isAwaited);
+    setText(this.#note, this.#noteText(state));
+  }
+
+  #noteText(state) {
+    if (state === "invalid") return "the last valid shape";
+    if (state === "failed") return "at rest: no deformed shape of this design is known";
+    if (this.#isAwaited) return this.#shown ? "the shape before; this one follows" : "";
     const follows = this.mode === "pressure" && !this.hasDeformed && this.#shown;
-    const texts = {
-      invalid: "the last valid shape",
-      failed: "at rest: no deformed shape of this design is known",
-    };
-    setText(this.#note, texts[state] ?? (follows ? "at rest; the deformed shape follows" : ""));
+    return follows ? "at rest; the deformed shape follows" : "";
   }
 }
