@@ -242,7 +242,8 @@ def complete(path: Path) -> bool:
     if path.is_dir():
         present = {file.name for file in path.iterdir()}
         listed = json.loads((path / "manifest.json").read_text("utf-8"))["files"]
-        return len(listed) > 3 and present == {"manifest.json", "run.json", *listed}
+        report = json.loads((path / "run.json").read_text("utf-8"))["report"]
+        return len(listed) > 3 and present == {"manifest.json", "run.json", *report, *listed}
     content = path.read_bytes()
     if path.suffix == ".stl":
         return len(content) == 84 + 50 * int.from_bytes(content[80:84], "little")

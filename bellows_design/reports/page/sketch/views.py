@@ -80,7 +80,8 @@ def _of_side(design: Design) -> Iterator[Dimension]:
             beside = tip + pad.rib_width + pad.groove_width / 2
             rib = beside + pad.groove_width / 2
             yield _level("fingertip.rib_width", pad.rib_width, rib, pad.rib_height / 2, "below")
-            yield _upright("fingertip.rib_height", pad.rib_height, beside, 0.0)
+            foot, roof = (tip + pad.rib_width, 0.0), (beside, pad.rib_height)
+            yield Dimension("fingertip.rib_height", pad.rib_height, foot, roof, "right")
     if design.mount is not None and design.mount.kind == "flange":
         top = design.mount.height(port)
         yield _level(
@@ -120,10 +121,10 @@ def _of_detail(design: Design, first: float, last: float) -> Iterator[Dimension]
     yield _upright("tendon_height", bellows.tendon_height, between, 0.0, "left")
     if indent is None:
         return
-    floor = 0.0 if indent.side == "outside" else wall - indent.depth
-    edge = 0.0 if indent.side == "outside" else wall
-    yield _level("indent.width", indent.width, last - indent.width / 2, edge, "below")
-    yield _upright("indent.depth", indent.depth, first, floor, "left")
+    edge, deep = (0.0, indent.depth) if indent.side == "outside" else (wall, wall - indent.depth)
+    side = indent.width / 2
+    yield _level("indent.width", indent.width, last - side, edge, "below")
+    yield Dimension("indent.depth", indent.depth, (first - side, edge), (first, deep), "left")
 
 
 def _radii(design: Design, middle: float) -> Iterator[Callout]:
