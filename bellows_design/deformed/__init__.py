@@ -18,6 +18,7 @@ if TYPE_CHECKING:
         deformed_actuator,
         deformed_surface,
     )
+    from bellows_design.deformed.bodies import deformed_body
     from bellows_design.deformed.frames import surface_frames
     from bellows_design.deformed.surface import SurfaceFrames
 
@@ -26,6 +27,7 @@ __all__ = [
     "DeformedActuator",
     "SurfaceFrames",
     "deformed_actuator",
+    "deformed_body",
     "deformed_surface",
     "surface_frames",
 ]
@@ -34,6 +36,7 @@ __getattr__ = imported_when_asked_for(
     __name__,
     {
         "actuator": ("Assembly", "DeformedActuator", "deformed_actuator", "deformed_surface"),
+        "bodies": ("deformed_body",),
         "frames": ("surface_frames",),
         "surface": ("SurfaceFrames",),
     },

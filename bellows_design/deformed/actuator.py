@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bellows_design.analysis.evaluation import Evaluation
-from bellows_design.analysis.models import HALF, UNIT_CELL, shortened
-from bellows_design.deformed.joined.chain import Chain
+from bellows_design.analysis.models import HALF, UNIT_CELL
 from bellows_design.deformed.joined.state import ActuatorState, BodyState
+from bellows_design.deformed.solved import Found, SolvedBodies, anchor_of, reached
 from bellows_design.deformed.surface import SurfaceFrames
 from bellows_design.deformed.whole import Whole, WholeSurface, stress_of, whole_of
 from bellows_design.neighbours.record import NeighbourEvaluation
@@ -23,8 +23,6 @@ if TYPE_CHECKING:
     from bellows_design.design.design import Design
     from bellows_design.morphing.morpher import Morpher
     from solver import Solution
-
-Found: TypeAlias = Evaluation | NeighbourEvaluation
 
 
 @dataclass(frozen=True)
@@ -64,10 +62,11 @@ def deformed_actuator(found: Found) -> DeformedActuator:
 
     Returns:
         The body as analysed: with its fingertip, without port and mount. Where bubbles without
-        neighbours stand for the ends (``FREE_ENDS`` in ``analysis.wall_contact``), root and tip
-        beyond the outermost gaps' middles are missing.
+        neighbours stand for the ends (``FREE_ENDS`` in ``analysis.wall_contact``), what lies beyond
+        the outermost gaps' middles is drawn out from their section, without a fingertip, and its
+        stress fades out: it was not solved for.
     """
-    return Assembly.of(_anchor(found)).actuator(found)
+    return Assembly.of(anchor_of(found)).actuator(found)
 
 
 def deformed_surface(found: Found) -> SurfaceFrames:
@@ -75,7 +74,7 @@ def deformed_surface(found: Found) -> SurfaceFrames:
 
     Who asks again and again, for neighbours of one evaluation, keeps an ``Assembly``.
     """
-    return Assembly.of(_anchor(found)).surface(found)
+    return Assembly.of(anchor_of(found)).surface(found)
 
 
 @dataclass(frozen=True)
@@ -93,9 +92,9 @@ class Assembly:
     @staticmethod
     def of(anchor: Evaluation) -> Assembly:
         """For an evaluation and its neighbours."""
-        computation = anchor.computation
-        ends = None if computation.ends is None else computation.ends.problem.mesh
-        return Assembly(anchor, whole_of(anchor.design, computation.finest.problem.mesh, ends))
+        solved = SolvedBodies.of(anchor)
+        ends = None if solved.ends is None else solved.ends.problem.mesh
+        return Assembly(anchor, whole_of(anchor.design, solved.body.problem.mesh, ends))
 
     def actuator(self, found: Found) -> DeformedActuator:
         """The body, as ``deformed_actuator``; of the anchor or of a neighbour of it."""
@@ -120,65 +119,56 @@ class Assembly:
             np.stack([self._surface.at_rest(bellows, state), self._surface.loaded(bellows, state)]),
             np.stack([0 * stress, stress]),
             np.array([0.0, found.pressure_mpa]),
-            np.array([0.0, found.bending_angle_deg]),
+            np.degrees([0.0, state.angle]),
         )
 
     def _state(self, found: Found) -> ActuatorState:
-        angle = float(np.radians(found.bending_angle_deg))
-        return ActuatorState(BodyState.of(_solution(found)), self._ends_of(found.design), angle)
-
-    def _ends_of(self, design: Design) -> BodyState | None:
-        """The ends as solved, on the mesh moved to a neighbour if that is asked for."""
-        if self._ends is None or design == self.anchor.design:
-            return self._ends
-        return replace(self._ends, nodes=self._morpher.mesh_of(self._short(design)).nodes)
+        if found.design == self.anchor.design:
+            return self._reached
+        assert isinstance(found, NeighbourEvaluation)
+        body, angle = BodyState.of(found.solution), float(np.radians(found.bending_angle_deg))
+        return ActuatorState(body, self._moved_ends(found.design), angle)
 
     @cached_property
-    def _ends(self) -> BodyState | None:
-        ends = self.anchor.computation.ends
-        return None if ends is None else BodyState.of(ends)
+    def _reached(self) -> ActuatorState:
+        return reached(self.anchor)
+
+    def _moved_ends(self, design: Design) -> BodyState | None:
+        """The ends as solved, on the mesh moved to a neighbour."""
+        ends = self._reached.ends
+        if ends is None:
+            return None
+        moved = replace(self._solved, design=design).design_of_ends
+        return replace(ends, nodes=self._morpher.mesh_of(moved).nodes)
+
+    @property
+    def _solved(self) -> SolvedBodies:
+        return SolvedBodies.of(self.anchor)
 
     @cached_property
     def _morpher(self) -> Morpher:
         """Moves the mesh of the ends to neighbours."""
         from bellows_design.morphing.morpher import Morpher
 
-        ends, design = self.anchor.computation.ends, self.anchor.design
-        assert ends is not None
-        body = UNIT_CELL if self._free_ends else HALF
-        return Morpher.of(self._short(design), body.name, ends.problem.mesh)
-
-    @property
-    def _free_ends(self) -> bool:
-        """Whether a bubble without neighbours stands for the ends."""
-        return isinstance(self.whole, Chain) and self.whole.ends.root.free
-
-    def _short(self, design: Design) -> Design:
-        """The design whose body the ends are."""
-        return design if self._free_ends else shortened(design)
+        solved = self._solved
+        assert solved.ends is not None
+        body = UNIT_CELL if solved.free_ends else HALF
+        return Morpher.of(solved.design_of_ends, body.name, solved.ends.problem.mesh)
 
     @cached_property
     def _counted(self) -> NDArray[np.bool_]:
         """Which nodes are far from sharp edges; of new ones, those between such."""
-        from solver.results.sharp_edges import trusted_nodes
-
-        ends = self.anchor.computation.ends
-        near = [
-            None if each is None else (~trusted_nodes(each.problem)).astype(np.float64)
-            for each in (self.anchor.computation.finest, ends)
-        ]
-        assert near[0] is not None
-        doubtful = self.whole.assembled.values(self.whole.values(near[0], near[1]))
-        return np.asarray(doubtful == 0)
+        solved = self._solved
+        body, ends = _doubtful(solved.body), None if solved.ends is None else _doubtful(solved.ends)
+        return np.asarray(self.whole.assembled.values(self.whole.values(body, ends)) == 0)
 
     @cached_property
     def _surface(self) -> WholeSurface:
-        return WholeSurface.of(self.whole)
+        return WholeSurface.of(self.whole, self.anchor.design.bellows, self._solved.at_rest)
 
 
-def _anchor(found: Found) -> Evaluation:
-    return found if isinstance(found, Evaluation) else found.anchor
+def _doubtful(solution: Solution) -> Reals:
+    """1 at nodes (n,) whose stress does not count, else 0."""
+    from solver.results.sharp_edges import trusted_nodes
 
-
-def _solution(found: Found) -> Solution:
-    return found.computation.finest if isinstance(found, Evaluation) else found.solution
+    return (~trusted_nodes(solution.problem)).astype(np.float64)

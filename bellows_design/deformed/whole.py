@@ -7,6 +7,7 @@ from typing import TypeAlias
 
 import numpy as np
 
+from bellows_design.deformed.closing import closed
 from bellows_design.deformed.joined.chain import Chain
 from bellows_design.deformed.joined.single import Single
 from bellows_design.deformed.joined.state import ActuatorState
@@ -37,11 +38,11 @@ class WholeSurface:
     flat: FlatSurface
 
     @staticmethod
-    def of(whole: Whole) -> WholeSurface:
-        """All that bounds it."""
-        return WholeSurface(
-            whole, FlatSurface.of(np.concatenate([*whole.assembled.surfaces.values()]))
-        )
+    def of(whole: Whole, bellows: BellowsParameters, state: ActuatorState) -> WholeSurface:
+        """All that bounds it, closed where cell and ends join."""
+        flat = FlatSurface.of(np.concatenate([*whole.assembled.surfaces.values()]))
+        rest = whole.assembled.positions(whole.at_rest(bellows, state), flat.nodes)
+        return WholeSurface(whole, FlatSurface(closed(flat.triangles, rest), flat.nodes))
 
     def at_rest(self, bellows: BellowsParameters, state: ActuatorState) -> Reals:
         """Its nodes (n, 3), mm, on the meshes of ``state``, without load."""

@@ -56,11 +56,12 @@ class Chain:
     def loaded(self, bellows: BellowsParameters, state: ActuatorState) -> Placed:
         """Under load, the root where it was."""
         body, ends = _both(state)
-        bend = self.added_bend(bellows, state)
-        nodes = (body.moved, *(end.points(ends, body, bend) for end in self.ends))
+        bends = self.added_bends(bellows, state)
+        pairs = list(zip(self.ends, bends, strict=True))
+        nodes = (body.moved, *(end.points(ends, body, bend) for end, bend in pairs))
         to_root, to_tip = (end.joint(ends, body) for end in self.ends)
         held = Motion(x=self._rest_places(bellows)[0])
-        base = held.after(self.ends.root.far(ends, bend).inverse)
+        base = held.after(self.ends.root.far(ends, bends[0]).inverse)
         bubbles = _bubbles(bellows, body, base.after(to_root))
         return Placed(nodes, (base, *bubbles, bubbles[-1].after(to_tip.inverse)))
 
@@ -68,11 +69,20 @@ class Chain:
         """Values at the nodes of the bodies from those of cell and ends."""
         return body, *(end.piece.values @ ends for end in self.ends)
 
-    def added_bend(self, bellows: BellowsParameters, state: ActuatorState) -> float:
-        """By how much each end is bent on, rad, so that the tip turns as far as was found."""
+    def added_bends(self, bellows: BellowsParameters, state: ActuatorState) -> tuple[float, float]:
+        """By how much the ends are bent on, rad: root and tip.
+
+        So far that the tip turns by the angle of the whole, and that each end has half of what both
+        add to the cells. In the short actuator the tip's flexibility reaches past the bubble's
+        middle, which in a chain only turns the last bubble.
+        """
         body, ends = _both(state)
-        cells = 2 * (bellows.bubble_count - 1) * body.tilt
-        return (state.angle - cells - (2 * ends.tilt if self.ends.root.free else ends.turn)) / 2
+        count, root = bellows.bubble_count, self.ends.root
+        solved = root.joint(ends, body).angle - root.far(ends, 0.0).angle
+        wanted = body.tilt + (state.angle - 2 * count * body.tilt) / 2
+        both = 2 * ends.tilt if root.free else ends.turn
+        missing = state.angle - 2 * (count - 1) * body.tilt - both
+        return wanted - solved, missing - (wanted - solved)
 
     def _rest_places(self, bellows: BellowsParameters) -> tuple[float, ...]:
         """x of the places: of the root's end, of all bubbles, of the tip's end, mm."""

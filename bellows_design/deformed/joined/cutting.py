@@ -157,18 +157,41 @@ def _piece(mesh: Mesh, points: _Points, side: int, section: str) -> Piece:
     cells = _on(side, _split(_Cells(mesh.tets[:, :4], every), points), points)
     middles = _Middles.of(mesh, cells, points)
     tets = middles.completed(cells.corners, TETRAHEDRON_EDGES)
-    surfaces = {section: middles.completed(_section(cells.corners, points), TRIANGLE_EDGES)}
-    for name, triangles in mesh.surfaces.items():
-        whole = _Cells(triangles[:, :3], np.arange(len(triangles)))
-        corners = _on(side, _split(whole, points), points).corners
-        surfaces[name] = middles.completed(corners, TRIANGLE_EDGES)
-    return _compact(mesh, tets, surfaces, *_combinations(mesh, points, middles))
+    surfaces = _surfaces(mesh, points, side, section, _section(cells.corners, points))
+    named = {name: middles.completed(each, TRIANGLE_EDGES) for name, each in surfaces.items()}
+    return _compact(mesh, tets, named, *_combinations(mesh, points, middles))
+
+
+def _surfaces(
+    mesh: Mesh, points: _Points, side: int, section: str, faces: Integers
+) -> dict[str, Integers]:
+    """Triangles (k, 3) of the surfaces on one side, and of the section.
+
+    ``faces`` (k, 3): of the piece in the plane, some of which may lie on a surface of the mesh.
+    """
+    surfaces = {}
+    for name in mesh.surfaces.keys() - {section}:
+        triangles = mesh.surfaces[name][:, :3]
+        corners = _split(_Cells(triangles, np.arange(len(triangles))), points).corners
+        beside = (points.sides[corners] == side).any(axis=1)
+        flat = (points.sides[corners] == 0).all(axis=1)
+        surfaces[name] = corners[beside | (flat & _among(corners, faces))]
+    known = np.concatenate([*surfaces.values(), np.empty((0, 3), np.int32)])
+    return {**surfaces, section: faces[~_among(faces, known)]}
 
 
 def _on(side: int, cells: _Cells, points: _Points) -> _Cells:
     """Those on one side of the plane, not flat in it."""
     there = (points.sides[cells.corners] == side).any(axis=1)
     return _Cells(cells.corners[there], cells.parents[there])
+
+
+def _among(faces: Integers, others: Integers) -> NDArray[np.bool_]:
+    """Which faces (k, 3) are the same as one of the others (j, 3)."""
+    both = np.sort(np.concatenate([faces, others]), axis=1)
+    _, numbers = np.unique(both, axis=0, return_inverse=True)
+    numbers = numbers.reshape(-1)
+    return np.isin(numbers[: len(faces)], numbers[len(faces) :])
 
 
 def _section(corners: Integers, points: _Points) -> Integers:
