@@ -130,7 +130,7 @@ def _as_power(value: float) -> str:
 def _rounded(low: float, high: float, log: bool) -> tuple[float, float]:
     if log:
         return (low / 2, high * 2) if low == high else (low / 1.15, high * 1.15)
-    if low == high:
+    if high - low <= 1e-9 * max(abs(low), abs(high)):  # the same but for rounding
         room = abs(low) / 10 or 1.0
         low, high = low - room, high + room
     step = nice_step((high - low) / 5)
@@ -139,4 +139,4 @@ def _rounded(low: float, high: float, log: bool) -> tuple[float, float]:
 
 def _exact(number: int, step: float) -> float:
     """A multiple of the step without the last digits of binary numbers."""
-    return float(f"{number * step:.10g}")
+    return round(number * step, max(0, 2 - math.floor(math.log10(step))))

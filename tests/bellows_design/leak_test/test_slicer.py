@@ -14,6 +14,7 @@ from bellows_design.export.statements import files_of
 from bellows_design.leak_test.record import Unavailable
 from bellows_design.leak_test.slicer import usual_tester
 from bellows_design.pipeline import build_part, examine
+from bellows_design.web.layers import packed_layers
 from printers import PrintersError
 
 ONE_BUBBLE = [
@@ -90,6 +91,7 @@ def test_two_runs_with_a_slicer_seal_and_write_the_same_bytes(
         assert test.slicer == "PrusaSlicer" and len(test.profile_sha256) == 64
         assert not [rule for rule in test.rules if rule.verdict == "fail"]
         json.dumps(test.figures, allow_nan=False)
+        assert test.layers is not None and len(packed_layers(test.layers)) < 1.5e6
         assert "rules" not in test.figures and all(rule.severity for rule in test.rules)
         contents.append(files_of(found))
     assert contents[0] == contents[1] and len(contents[0]) == 11

@@ -18,7 +18,7 @@ export const VIEWS = {
 };
 
 export class Camera {
-  constructor(canvas, changed) {
+  constructor(canvas, changed, taken) {
     this.camera = new OrthographicCamera(-1, 1, 1, -1, -1000, 1000);
     this.camera.up.set(0, 0, 1);
     this.width = this.height = 1;
@@ -32,10 +32,13 @@ export class Camera {
     this.orbit.minZoom = 0.15;
     this.orbit.maxZoom = 60;
     this.orbit.addEventListener("change", changed);
+    this.orbit.addEventListener("start", taken);
     canvas.style.touchAction = "pan-y"; // a finger that moves up or down scrolls the page
+    canvas.addEventListener("pointerdown", ({ isPrimary }) => isPrimary && this.orbit.saveState());
+    canvas.addEventListener("pointercancel", () => this.orbit.reset()); // it was a scroll
   }
 
-  /** The canvas's size, pixels, and the room for what lies over it, as shares of its sides. */
+  /** The canvas's size, pixels. */
   resize(width, height) {
     this.width = width;
     this.height = height;
@@ -52,8 +55,8 @@ export class Camera {
   }
 
   /** See all `points` (x, y, z behind each other) of a scene of `size` mm, from where the camera is
-      or from `direction`. */
-  fit(points, size, direction) {
+      or from `direction`, with `aside` pixels free at the right and the left. */
+  fit(points, size, direction, aside) {
     this.size = Math.max(size, 1e-6);
     if (direction) this.direction.set(...direction).normalize();
     this.camera.zoom = 1;
@@ -65,7 +68,7 @@ export class Camera {
     this.middle.applyMatrix4(this.camera.matrixWorld);
     this.camera.position.copy(this.middle).addScaledVector(this.direction, this.size);
     this.orbit.target.copy(this.middle);
-    const aspect = this.width / this.height;
+    const aspect = (this.width - 2 * aside) / this.height;
     this.half = (MARGIN / 2) * Math.max(high[1] - low[1], (high[0] - low[0]) / aspect, 1e-6);
     this.frustum();
     this.orbit.update();

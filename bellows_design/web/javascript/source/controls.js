@@ -44,11 +44,16 @@ export class Controls {
     this.playButton = element("button", { type: "button", class: "round", onclick: () => viewer.play() });
     this.slider = element("input", {
       type: "range", min: 0, max: viewer.frames - 1, step: 0.02, "aria-label": "Frame",
-      oninput: () => { viewer.play(false); viewer.setFrame(this.slider.valueAsNumber); },
+      oninput: () => this.onSlide(this.slider.valueAsNumber),
       onkeydown: (event) => this.onSliderKey(event),
     });
-    this.reading = element("output", { class: "reading" });
+    this.reading = element("output", { class: "reading", "aria-live": "off" });
     return element("div", { class: "group frames" }, this.playButton, this.slider, this.reading);
+  }
+
+  onSlide(frame) {
+    this.viewer.play(false);
+    this.viewer.setFrame(frame);
   }
 
   /** Arrow keys step by whole frames, though the mouse moves between them. */
@@ -56,8 +61,7 @@ export class Controls {
     const step = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1 }[event.key];
     if (!step) return;
     event.preventDefault();
-    this.viewer.play(false);
-    this.viewer.setFrame(Math.round(this.viewer.frame) + step);
+    this.onSlide(Math.round(this.viewer.frame) + step);
   }
 
   fields() {
@@ -89,8 +93,9 @@ export class Controls {
       type: "button", title: "Cut away the other half", "aria-label": "Cut away the other half", class: "round",
       onclick: () => viewer.setSection({ flip: !viewer.section.flip }),
     }, "⇄");
-    this.place = element("output", { class: "reading quiet" });
-    return element("div", { class: "group section" }, this.cut, this.axis, this.offset, this.place, this.flip);
+    this.place = element("output", { class: "reading quiet", "aria-live": "off" });
+    this.placing = element("div", { class: "place" }, this.axis, this.offset, this.place, this.flip);
+    return element("div", { class: "group section" }, this.cut, this.placing);
   }
 
   surfaces() {
@@ -151,8 +156,8 @@ export class Controls {
     this.offset.value = section.placed ? section.offset : (low + high) / 2;
     this.cut.setAttribute("aria-pressed", String(section.on));
     this.axis.value = section.axis;
-    for (const control of [this.axis, this.offset, this.flip]) control.disabled = !section.on;
-    this.place.textContent = section.on ? `${shortNumber(section.offset, high - low)} mm` : "";
+    this.placing.hidden = !section.on;
+    this.place.textContent = `${shortNumber(section.offset, high - low)} mm`;
     this.offset.setAttribute("aria-valuetext", `${section.axis} = ${this.place.textContent}`);
   }
 }

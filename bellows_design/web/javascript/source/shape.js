@@ -1,7 +1,7 @@
 /* One surface or one set of lines on the graphics card: its frames, normals, values. */
 
 import { BufferAttribute, BufferGeometry, LineSegments, Mesh, Sphere, Vector3 } from "three";
-import { closeEachOther, topologyOf } from "./topology.js";
+import { enclose, topologyOf } from "./topology.js";
 import { countingMaterials, lineMaterial, surfaceMaterial, vectorOf } from "./materials.js";
 
 const EVERYWHERE = new Sphere(new Vector3(), Infinity);
@@ -22,6 +22,7 @@ export class Shape {
     this.field = null;
     this.buildObjects();
     this.setFrame(0);
+    if (this.edges) this.markEdges();
   }
 
   takeData(data) {
@@ -58,10 +59,16 @@ export class Shape {
     this.edgeGeometry = new BufferGeometry();
     this.edgeGeometry.boundingSphere = EVERYWHERE;
     this.edgeGeometry.setAttribute("position", this.geometry.getAttribute("position"));
-    this.edgeGeometry.setIndex(new BufferAttribute(this.topology.creases, 1));
     this.edgeMaterial = lineMaterial(section, 0.55 * this.data.opacity);
     this.edges = new LineSegments(this.edgeGeometry, this.edgeMaterial);
     this.objects.push(this.edges);
+  }
+
+  /** Sharp edges, and the rims of what is open; joints that are divided otherwise are no rims. */
+  markEdges() {
+    const { creases, open } = this.topology;
+    const marked = this.closed ? creases : Uint32Array.from([...creases, ...open]);
+    this.edgeGeometry.setIndex(new BufferAttribute(marked, 1));
   }
 
   /** Take other positions and values on the same cells; false if the cells differ. */
@@ -75,20 +82,20 @@ export class Shape {
     return same;
   }
 
+  /** Whether it encloses a volume by itself. */
   get closed() {
-    return !this.lines && this.topology.open.length === 0;
+    return !this.lines && enclose(this.openEdges(), this.size);
   }
 
-  /** Middles of the open edges, mm. */
+  get size() {
+    const { low, high } = this.data;
+    return Math.hypot(...high.map((x, axis) => x - low[axis])) || 1;
+  }
+
+  /** Both ends of the edges that have one triangle only, x, y, z behind each other, mm. */
   openEdges() {
     const positions = this.geometry.getAttribute("position").array;
-    const { open } = this.topology;
-    const middles = [];
-    for (let i = 0; i < open.length; i += 2) {
-      const [a, b] = [3 * open[i], 3 * open[i + 1]];
-      middles.push([0, 1, 2].map((axis) => (positions[a + axis] + positions[b + axis]) / 2));
-    }
-    return middles;
+    return Array.from(this.topology.open).flatMap((i) => Array.from(positions.subarray(3 * i, 3 * i + 3)));
   }
 
   /** Show the frame `t`, from 0 to the last; between two frames a mix of both. */
@@ -228,12 +235,11 @@ function pointsAsTheyAre(data) {
   };
 }
 
-/** Sets of shapes that are closed, each by itself or the open ones together. */
-export function closedGroups(shapes, tolerance) {
+/** Sets of shapes that enclose volumes: each by itself, or those that do not all together. */
+export function closedGroups(shapes, size) {
   const surfaces = shapes.filter((shape) => !shape.lines && shape.data.opacity === 1);
-  const groups = surfaces.filter((shape) => shape.closed).map((shape) => [shape]);
   const open = surfaces.filter((shape) => !shape.closed);
-  const edges = open.flatMap((shape) => shape.openEdges());
-  if (open.length && closeEachOther(edges, tolerance)) groups.push(open);
+  const groups = surfaces.filter((shape) => !open.includes(shape)).map((shape) => [shape]);
+  if (open.length > 1 && enclose(open.flatMap((shape) => shape.openEdges()), size)) groups.push(open);
   return groups;
 }

@@ -57,19 +57,21 @@ canvas { display: block; width: 100%; height: 100%; position: absolute; inset: 0
 canvas:active { cursor: grabbing; }
 .message { position: absolute; inset: 0; display: grid; place-content: center; text-align: center;
   padding: 24px; color: var(--own-ink); font-size: 14px; background: var(--own-stage); }
-.message[hidden], .legend[hidden], .help[hidden] { display: none; }
+:is(.message, .legend, .help, .value, .place)[hidden] { display: none; }
 .bar { display: flex; flex-wrap: wrap; gap: 8px 18px; align-items: center; padding: 8px 12px;
   border-top: 1px solid var(--own-line); background: var(--own-card); }
 .bar:empty { display: none; }
-.group { display: flex; align-items: center; gap: 8px; min-width: 0; margin: 0; padding: 0; border: 0; }
+.group { display: flex; align-items: center; gap: 8px; min-width: min-content; max-width: 100%; margin: 0; padding: 0; border: 0; }
 .group.frames { flex: 1 1 260px; }
-.group.section { flex: 1 1 230px; }
+.place { display: contents; }
+.group.section:has(.place:not([hidden])) { flex: 1 1 260px; }
 .group input[type="range"] { flex: 1 1 90px; min-width: 60px; width: 60px; margin: 0; height: 26px;
   accent-color: var(--own-accent); }
 .reading { min-width: 64px; font-weight: 600; white-space: nowrap; }
 button, select { font: inherit; color: var(--own-ink); background: var(--own-card);
   border: 1px solid var(--own-line); border-radius: 6px; min-height: 30px; padding: 3px 10px;
   cursor: pointer; max-width: 100%; }
+select { min-width: 0; flex: 0 1 auto; text-overflow: ellipsis; }
 button:hover, select:hover { border-color: var(--own-accent); }
 button[aria-pressed="true"] { background: var(--own-accent); border-color: var(--own-accent);
   color: var(--own-card); }
@@ -92,7 +94,7 @@ input[type="checkbox"] { width: 16px; height: 16px; margin: 0; accent-color: var
 `;
 
 export const VIEWER_STYLE = `${SHARED_STYLE}
-.legend { position: absolute; top: 10px; right: 12px; display: grid; gap: 6px; justify-items: end;
+.legend { position: absolute; top: 10px; right: 12px; display: grid; gap: 11px; justify-items: end;
   pointer-events: none; max-width: 60%; }
 .legend-title { font-weight: 600; text-align: right; }
 .legend-scale { position: relative; width: 14px; height: min(170px, 38cqh); margin-right: 58px;
@@ -119,6 +121,8 @@ export const VIEWER_STYLE = `${SHARED_STYLE}
   box-shadow: 0 4px 16px rgb(0 0 0 / 0.18); z-index: 2; }
 .help dl { display: grid; grid-template-columns: auto 1fr; gap: 3px 12px; margin: 0; font-size: 12px; }
 .help dt { font-weight: 600; } .help dd { margin: 0; }
+.value { position: absolute; left: 0; top: 0; padding: 1px 8px; border-radius: 6px; font-weight: 600;
+  background: var(--own-ink); color: var(--own-card); font-size: 12px; pointer-events: none; white-space: nowrap; }
 .note { position: absolute; left: 50%; top: 12px; transform: translateX(-50%); padding: 4px 12px;
   border-radius: 14px; background: var(--own-ink); color: var(--own-card); font-size: 12px;
   opacity: 0; transition: opacity 0.2s; pointer-events: none; white-space: nowrap; }

@@ -2,12 +2,13 @@
 
 import { LinearSRGBColorSpace, Scene, WebGLRenderer } from "three";
 import { Camera, VIEWS } from "./camera.js";
-import { mapBytes } from "./colours.js";
+import { mapBytes, shortNumber } from "./colours.js";
 import { Controls } from "./controls.js";
 import { element, onThemeChange, reducedMotion, shadowOf } from "./dom.js";
 import { mapTexture } from "./materials.js";
 import { Help, Legend, ScaleBar, Triad } from "./overlay.js";
 import { picture } from "./picture.js";
+import { Probe } from "./probe.js";
 import { Section } from "./section.js";
 import { Shape } from "./shape.js";
 import { VIEWER_STYLE } from "./style.js";
@@ -18,6 +19,8 @@ const NO_WEBGL =
 const LOST = "The graphics card was taken away from this page. The view comes back when it is free again.";
 const PALETTE = ["", "#d98f4e", "#6aa66a", "#b07fb8", "#c8b04a", "#5fb0b0"];
 const FRAMES_PER_SECOND = 6;
+const LEGEND_WIDTH = 84; // pixels that it needs beside the scene
+const NARROW = 560; // pixels: below, the legend lies over the scene
 
 /**
  * A view of one scene in `host`, an element of the page.
@@ -37,6 +40,7 @@ export class Viewer extends EventTarget {
     this.frame = 0;
     this.field = null;
     this.renders = 0;
+    this.touched = false; // whether the reader has turned, moved or zoomed the view
     this.section = new Section();
     this.buildPage();
     this.startGraphics();
@@ -54,13 +58,15 @@ export class Viewer extends EventTarget {
     this.canvas = element("canvas", { "aria-hidden": "true" });
     this.message = element("div", { class: "message", role: "alert", hidden: true });
     this.note = element("div", { class: "note", "aria-hidden": "true" });
+    this.value = element("div", { class: "value", "aria-hidden": "true", hidden: true });
+    this.probe = new Probe(this);
     this.keysText = element("span", { class: "hidden-text", id: "keys" },
       "Arrow keys turn, plus and minus zoom, square brackets change the frame, S cuts, R resets.");
     this.stage = element(
       "div",
       { class: "stage", tabindex: 0, role: "application", "aria-roledescription": "3D view",
         "aria-label": this.options.label, "aria-describedby": "keys", part: "stage" },
-      this.canvas, this.triad.root, this.scaleBar.root, this.legend.root, this.note, this.keysText,
+      this.canvas, this.triad.root, this.scaleBar.root, this.legend.root, this.note, this.value, this.keysText,
     );
     this.bar = element("div", { class: "bar", part: "bar" });
     this.root = shadowOf(this.host, VIEWER_STYLE);
@@ -70,6 +76,8 @@ export class Viewer extends EventTarget {
     else this.fillHost();
     this.stage.addEventListener("keydown", (event) => this.onKey(event));
     this.stage.addEventListener("pointerdown", () => this.stage.focus({ preventScroll: true, focusVisible: false }));
+    this.stage.addEventListener("pointermove", (event) => this.onPoint(event));
+    this.stage.addEventListener("pointerleave", () => (this.value.hidden = true));
     this.stage.addEventListener("wheel", (event) => this.onWheel(event), { capture: true });
   }
 
@@ -92,10 +100,11 @@ export class Viewer extends EventTarget {
     this.renderer.outputColorSpace = LinearSRGBColorSpace; // the shaders' colours are as displayed
     this.renderer.setClearColor(0, 0);
     this.scene = new Scene();
-    this.camera = new Camera(this.canvas, () => {
+    const changed = () => {
       this.invalidate();
       this.tell("view");
-    });
+    };
+    this.camera = new Camera(this.canvas, changed, () => (this.touched = true));
     this.map = { value: null };
     this.setMap(this.options.map);
     this.canvas.addEventListener("webglcontextlost", (event) => this.onLost(event));
@@ -297,13 +306,15 @@ export class Viewer extends EventTarget {
       camera is taken away when the cut is switched on or its axis changes. */
   setSection({ axis, offset_mm, on, flip } = {}) {
     const { section } = this;
-    const turned = (axis !== undefined && axis !== section.axis) || (on && !section.on);
-    if (axis !== undefined) section.axis = axis;
+    const other = axis !== undefined && axis !== section.axis;
+    const turned = other || (on && !section.on);
+    if (other) section.axis = axis;
     const number = ["x", "y", "z"].indexOf(section.axis);
-    const { low, high } = this.bounds;
-    if (offset_mm !== undefined) section.offset = offset_mm;
-    else if (turned && (axis !== undefined || !section.placed)) section.offset = (low[number] + high[number]) / 2;
-    section.placed = true;
+    if (offset_mm !== undefined || ((other || !section.placed) && this.shapes.length)) {
+      const { low, high } = this.bounds;
+      section.offset = offset_mm ?? (low[number] + high[number]) / 2;
+      section.placed = true;
+    }
     if (on !== undefined) section.on = Boolean(on);
     if (flip !== undefined) section.flip = Boolean(flip);
     else if (turned && this.camera) section.flip = this.camera.towards.getComponent(number) < 0;
@@ -335,7 +346,9 @@ export class Viewer extends EventTarget {
     if (!this.camera || !this.shapes.length) return;
     const points = this.shapes.flatMap((shape) => (shape.visible ? shape.samplePoints() : []));
     if (!points.length) return;
-    this.camera.fit(points, this.size, Array.isArray(view) ? view : VIEWS[view] || VIEWS.corner);
+    const direction = Array.isArray(view) ? view : VIEWS[view] || VIEWS.corner;
+    const aside = this.fieldNames.length && this.camera.width > NARROW ? LEGEND_WIDTH : 0;
+    this.camera.fit(points, this.size, direction, aside);
     this.touched = false;
     this.invalidate();
     this.tell("view");
@@ -360,6 +373,29 @@ export class Viewer extends EventTarget {
     if (this.root.activeElement === this.stage || event.ctrlKey || event.metaKey) return;
     event.stopPropagation();
     this.say("Click first, or hold Ctrl, to zoom");
+  }
+
+  /** Say the value below the mouse; not while it turns the view. */
+  onPoint({ clientX, clientY, buttons, pointerType }) {
+    cancelAnimationFrame(this.pointing);
+    this.value.hidden = true;
+    if (buttons || pointerType !== "mouse" || !this.field || !this.renderer) return;
+    this.pointing = requestAnimationFrame(() => {
+      const box = this.stage.getBoundingClientRect();
+      this.readValue(clientX - box.left, clientY - box.top);
+    });
+  }
+
+  /** Show the value at a place of the stage, pixels; returns it, null where there is none. */
+  readValue(x, y) {
+    const found = this.probe.at(x, y);
+    this.value.hidden = !found;
+    if (!found) return null;
+    const { low, high } = this.colouring;
+    this.value.textContent = `${shortNumber(found.value, high - low)} ${found.unit}`.trim();
+    const left = x > this.stage.clientWidth - 110;
+    this.value.style.transform = `translate(${x}px, ${y}px) translate(${left ? "calc(-100% - 10px)" : "14px"}, -130%)`;
+    return found.value;
   }
 
   say(text) {
@@ -433,6 +469,7 @@ export class Viewer extends EventTarget {
       surfaces: this.shapes.map((shape) => ({
         name: shape.name, visible: shape.visible, closed: shape.closed, colour: shape.data.colour,
         cells: shape.data.cells.length / shape.data.corners, points: shape.data.points, sample: sample(shape),
+        sharp_edges: shape.topology.creases.length / 2,
       })),
       renders: this.renders,
       lost: Boolean(this.lost),
