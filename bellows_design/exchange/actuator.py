@@ -6,7 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
-from bellows_design.deformed.actuator import DeformedActuator, Found, deformed_actuator
+from bellows_design.deformed.actuator import DeformedActuator, deformed_actuator
+from bellows_design.deformed.solved import Found
 from bellows_design.errors import DesignError
 from bellows_design.exchange.formats import ACTUATOR_SUFFIXES
 from bellows_design.files.atomic import replacing

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -41,7 +41,7 @@ class Preview:
 
     title: str
     rows: Rows
-    page: str
+    page: str = field(repr=False)
 
     def save(self, path: Path | str) -> None:
         """Write the page. Raises ``CannotWrite``."""
@@ -82,10 +82,10 @@ def preview(shape: Shape, **parameters: Any) -> Preview:
     return _shown(design.name, design_rows(design), [_part(design)], "")
 
 
-def _shown(title: str, rows: Rows, surfaces: list[Shown], field: str) -> Preview:
+def _shown(title: str, rows: Rows, surfaces: list[Shown], coloured_by: str) -> Preview:
     from bellows_design.web.element import viewer_page
 
-    options = {"field": field, "frame": 1} if field else {}
+    options = {"field": coloured_by, "frame": 1} if coloured_by else {}
     return Preview(title, rows, viewer_page(surfaces, title, height_px=HEIGHT, **options))
 
 
