@@ -1,12 +1,13 @@
-"""The tutorial prints what its commands print, but for numbers, which differ by machine and time."""
+"""The tutorial shows what its commands print, but for numbers, which differ by machine."""
 
 from __future__ import annotations
 
 import re
 
 import pytest
-from rerun import SHOWN, rerun
 from snippets import ROOT
+
+from rerun import SHOWN, rerun
 
 TUTORIAL = (ROOT / "docs/tutorial.md").read_text("utf-8")
 
