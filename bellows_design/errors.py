@@ -28,8 +28,8 @@ class DesignError(BellowsError):
         ...     with_overrides(load_design("finger"), ["bubble_thickness=12", "bubble_width=2"])
         ... except DesignError as error:
         ...     print(*error.sentences, sep="\\n")
+        bellows.bubble_width is 2 mm but must be at least 4 mm; ...
         bellows.bubble_thickness is 12 mm but must be at most 10 mm.
-        bellows.bubble_width is 2 mm but must be at least 4 mm.
     """
 
     def __init__(self, *sentences: str) -> None:

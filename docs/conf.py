@@ -15,7 +15,7 @@ HERE = Path(__file__).parent
 sys.path[:0] = [str(HERE), str(HERE.parent)]
 
 from bellows_design import __version__  # noqa: E402
-from generators.links import within_the_site  # noqa: E402
+from generators.links import with_pages_that_are_there, within_the_site  # noqa: E402
 from generators.pages import write_pages  # noqa: E402
 
 project = "bellows-design"
@@ -36,7 +36,6 @@ source_suffix = {".md": "markdown", ".rst": "restructuredtext"}
 exclude_patterns = ["generators"]
 default_role = "code"  # docstrings have names between single or double backticks
 
-suppress_warnings = ["toc.empty_glob"]  # pages of parts that may not be there
 myst_heading_anchors = 4
 myst_enable_extensions = ["attrs_block", "colon_fence"]
 
@@ -75,7 +74,7 @@ def read(app, name, source):  # type: ignore[no-untyped-def]
     """A page of the forge as one of the site."""
     if Path(app.env.doc2path(name)).suffix == ".md":
         folder = (HERE / name).parent
-        source[0] = within_the_site(source[0], folder, folder)
+        source[0] = within_the_site(with_pages_that_are_there(source[0], folder), folder, folder)
 
 
 def shortened(app, what, name, member, options, lines):  # type: ignore[no-untyped-def]

@@ -18,6 +18,7 @@ COPIES = {
 
 LINK = re.compile(r"(?<!!)\[([^\]]*)\]\(([^()\s]+)\)")
 BLOCK = re.compile(r"^(```+|~~~+).*?^\1", re.MULTILINE | re.DOTALL)
+PATTERN = re.compile(r"^(\[\w\]\S*)\n", re.MULTILINE)
 MERMAID = re.compile(r"^```mermaid$", re.MULTILINE)
 
 
@@ -33,6 +34,15 @@ def within_the_site(text: str, folder: Path, page_folder: Path) -> str:
         pieces += [MERMAID.sub("```text", block[0])]
         at = block.end()
     return "".join([*pieces, _linked(text[at:], folder, page_folder)])
+
+
+def with_pages_that_are_there(text: str, folder: Path) -> str:
+    """``text`` without the patterns in its trees, such as ``[s]tudio``, that no page matches."""
+
+    def kept(entry: re.Match[str]) -> str:
+        return entry[0] if any(folder.glob(f"{entry[1]}.md")) else ""
+
+    return PATTERN.sub(kept, text)
 
 
 def _linked(text: str, folder: Path, page_folder: Path) -> str:
