@@ -80,7 +80,7 @@ def _tetrahedra(solid: NDArray[np.bool_]) -> tuple[Reals, Integers]:
     ways[odd] = ways[odd][:, [0, 2, 1, 3]]
     vertices = (np.argwhere(solid)[:, None, None] + ways).reshape(-1, 3)
     points, numbers = np.unique(vertices, axis=0, return_inverse=True)
-    return points.astype(float), numbers.reshape(-1, 4)
+    return points.astype(np.float64), numbers.reshape(-1, 4).astype(np.int32)
 
 
 def _with_mid_nodes(points: Reals, tets: Integers) -> tuple[Reals, Integers]:
