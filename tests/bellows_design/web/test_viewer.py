@@ -59,6 +59,17 @@ def told(page: Page, call: str) -> Any:
     return page.evaluate(f"async () => {{ await (await {FIRST}).{call} }}")
 
 
+def show(page: Page, surface: Surface) -> None:
+    """Show another scene from where the camera is."""
+    page.evaluate(
+        f"""async (text) => {{
+          const viewer = await {FIRST};
+          viewer.show(await Bellows.unpack(Bellows.bytesOfBase64(text)), {{ keepView: true }});
+        }}""",
+        base64.b64encode(packed([surface])).decode(),
+    )
+
+
 def pixels(page: Page) -> np.ndarray:
     """What WebGL drew, behind all that lies over it. *Shape:* `(height, width, 4)`."""
     from io import BytesIO
@@ -255,11 +266,28 @@ def test_joints_that_are_divided_otherwise_are_closed_and_open_ends_are_not(
     pipe = Surface("pipe", sides, points)
     closed = Surface("closed", np.vstack([sides, both + 8]), everything)
     half = Surface("half", np.vstack([sides, np.array(fans) + 8]), everything)
-    for surface, expected in ((pipe, False), (half, False), (closed, True)):
-        with shown(browser, tmp_path, [surface]) as page:
+    with shown(browser, tmp_path, [closed]) as page:
+        for surface, expected in ((closed, True), (pipe, False), (half, False)):
+            show(page, surface)
             found = state(page)
             assert found["surfaces"][0]["closed"] is expected, surface.name
             assert found["section"]["caps"] == int(expected)
+
+
+def test_thin_triangles_make_no_sharp_edges(browser: Browser, tmp_path: Path) -> None:
+    """Along a diagonal of the top two triangles 0.4 µm wide stand steeply, 2 µm high."""
+    points, triangles = block(40, 10, 10)
+    middle, aside = np.array([20.0, 5.0, 10.0]), np.array([1.0, -4.0, 0.0]) * 2e-4 / 17**0.5
+    p, q = 8, 9
+    everything = np.vstack([points, middle + aside, middle - aside + [0, 0, 2e-3]])
+    top = [(7, 6, p), (7, p, 4), (6, 5, q), (5, 4, q), (p, 6, q), (p, q, 4)]
+    parted = np.array([tri for tri in triangles.tolist() if set(tri) - {4, 5, 6, 7}] + top)
+    surfaces = [Surface("block", triangles, points), Surface("parted", parted, everything)]
+    with shown(browser, tmp_path, [*surfaces]) as page:
+        assert [(each["closed"], each["sharp_edges"]) for each in state(page)["surfaces"]] == [
+            (True, 12),
+            (True, 12),
+        ]
 
 
 def test_the_section_s_slider_and_axis_move_the_plane(browser: Browser, tmp_path: Path) -> None:
@@ -392,18 +420,11 @@ def test_a_surface_is_hidden_by_its_box(browser: Browser, tmp_path: Path) -> Non
 
 def test_another_scene_of_the_same_cells_keeps_the_view(browser: Browser, tmp_path: Path) -> None:
     moved = replace(sheared(), positions=np.asarray(sheared().positions) * [1, 1.5, 1])
-    other = base64.b64encode(packed([moved])).decode()
     with shown(browser, tmp_path, [sheared()], frame=2, field="von Mises stress") as page:
         page.keyboard.press("Tab")
         page.keyboard.press("ArrowLeft")
         before = state(page)
-        page.evaluate(
-            f"""async (text) => {{
-              const viewer = await {FIRST};
-              viewer.show(await Bellows.unpack(Bellows.bytesOfBase64(text)), {{ keepView: true }});
-            }}""",
-            other,
-        )
+        show(page, moved)
         after = state(page)
     assert after["camera"] == before["camera"] and after["frame"] == 2
     assert after["field"] == "von Mises stress"
@@ -521,6 +542,26 @@ def test_views_far_below_wait_until_they_come_near_and_all_start_for_print(
         assert page.locator(".bellows-view[data-ready]").count() == 1
         page.evaluate("async () => { await Bellows.startAll(); }")
         assert page.locator(".bellows-view[data-ready]").count() == 3
+        assert seen.all == []
+
+
+def test_a_strict_policy_that_admits_the_page_s_own_by_nonce_is_kept(
+    browser: Browser, tmp_path: Path
+) -> None:
+    policy = "default-src 'none'; script-src 'nonce-abc'; style-src 'nonce-abc'"
+    meta = f'<meta http-equiv="Content-Security-Policy" content="{policy}">'
+    style = f'<style nonce="abc">{page_style()}</style>'
+    view = viewer_element([sheared()], section="y")
+    file = tmp_path / "page.html"
+    page_text = f"<!DOCTYPE html><meta charset=utf-8>{meta}{style}{view}{viewer_script('abc')}"
+    file.write_text(page_text, "utf-8")
+    with opened(browser, file) as (page, seen):
+        page.wait_for_selector(".bellows-view[data-ready]")
+        page.get_by_label("Frame", exact=True).fill("2")
+        assert state(page)["frame"] == 2
+        stage = page.locator(".stage").bounding_box()
+        assert stage is not None and stage["height"] == 420
+        assert drawn(pixels(page)).mean() > 0.02
         assert seen.all == []
 
 

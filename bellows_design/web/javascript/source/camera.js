@@ -38,7 +38,7 @@ export class Camera {
     canvas.addEventListener("pointercancel", () => this.orbit.reset()); // it was a scroll
   }
 
-  /** The canvas's size, pixels, and the room for what lies over it, as shares of its sides. */
+  /** The canvas's size, pixels. */
   resize(width, height) {
     this.width = width;
     this.height = height;
@@ -55,8 +55,8 @@ export class Camera {
   }
 
   /** See all `points` (x, y, z behind each other) of a scene of `size` mm, from where the camera is
-      or from `direction`. */
-  fit(points, size, direction) {
+      or from `direction`, with `aside` pixels free at the right and the left. */
+  fit(points, size, direction, aside) {
     this.size = Math.max(size, 1e-6);
     if (direction) this.direction.set(...direction).normalize();
     this.camera.zoom = 1;
@@ -68,7 +68,7 @@ export class Camera {
     this.middle.applyMatrix4(this.camera.matrixWorld);
     this.camera.position.copy(this.middle).addScaledVector(this.direction, this.size);
     this.orbit.target.copy(this.middle);
-    const aspect = this.width / this.height;
+    const aspect = (this.width - 2 * aside) / this.height;
     this.half = (MARGIN / 2) * Math.max(high[1] - low[1], (high[0] - low[0]) / aspect, 1e-6);
     this.frustum();
     this.orbit.update();

@@ -47,7 +47,7 @@ export class Controls {
       oninput: () => this.onSlide(this.slider.valueAsNumber),
       onkeydown: (event) => this.onSliderKey(event),
     });
-    this.reading = element("output", { class: "reading" });
+    this.reading = element("output", { class: "reading", "aria-live": "off" });
     return element("div", { class: "group frames" }, this.playButton, this.slider, this.reading);
   }
 
@@ -93,7 +93,7 @@ export class Controls {
       type: "button", title: "Cut away the other half", "aria-label": "Cut away the other half", class: "round",
       onclick: () => viewer.setSection({ flip: !viewer.section.flip }),
     }, "⇄");
-    this.place = element("output", { class: "reading quiet" });
+    this.place = element("output", { class: "reading quiet", "aria-live": "off" });
     this.placing = element("div", { class: "place" }, this.axis, this.offset, this.place, this.flip);
     return element("div", { class: "group section" }, this.cut, this.placing);
   }

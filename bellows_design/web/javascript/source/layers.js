@@ -41,7 +41,7 @@ export class Layers extends EventTarget {
     this.stage.style.height = `${this.options.height}px`;
     this.slider = element("input", { type: "range", min: 0, step: 1, "aria-label": "Layer",
       oninput: () => this.setLayer(this.slider.valueAsNumber) });
-    this.reading = element("output", { class: "reading" });
+    this.reading = element("output", { class: "reading", "aria-live": "off" });
     this.marks = element("div", { class: "group marks" });
     this.bar = element("div", { class: "bar", part: "bar" },
       element("div", { class: "group frames" }, element("span", { class: "quiet" }, "Layer"), this.slider, this.reading),

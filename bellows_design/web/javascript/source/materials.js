@@ -23,11 +23,12 @@ const CUT = `
   void cut() { if (cutting && dot(place, plane.xyz) > plane.w) discard; }
 `;
 
+/* Centroid: at the rims of thin triangles values beyond them would be extrapolated. */
 const SURFACE_VERTEX = `
   attribute float value;
   varying vec3 place;
-  varying vec3 direction;
-  varying float level;
+  centroid varying vec3 direction;
+  centroid varying float level;
   void main() {
     place = position;
     direction = normalMatrix * normal;
@@ -44,8 +45,8 @@ const SURFACE_FRAGMENT = `
   uniform bool coloured;
   uniform vec2 range;
   uniform sampler2D map;
-  varying vec3 direction;
-  varying float level;
+  centroid varying vec3 direction;
+  centroid varying float level;
   const vec3 KEY = vec3(-0.42, 0.58, 0.70);
   vec3 ofValue() {
     if (level < -0.5) return vec3(0.62);
@@ -56,7 +57,8 @@ const SURFACE_FRAGMENT = `
     cut();
     vec3 n = normalize(direction);
     vec3 base = coloured ? ofValue() : colour;
-    if (!gl_FrontFacing) { n = -n; if (!coloured) base = inside; }
+    // Triangles so thin that rounding turned them over are seen from outside all the same.
+    if (!gl_FrontFacing && n.z < 0.0) { n = -n; if (!coloured) base = inside; }
     float diffuse = max(dot(n, KEY), 0.0);
     float sky = 0.5 + 0.5 * n.y;
     float facing = max(n.z, 0.0);

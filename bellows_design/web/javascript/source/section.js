@@ -16,23 +16,17 @@ export class Section {
     this.caps = [];
   }
 
-  /** Objects that draw the caps of all closed groups among `shapes`; replaces those before. */
+  /** Objects that draw the caps of all closed groups among `shapes`, as far as they are new. */
   rebuild(shapes, size) {
-    this.dispose();
-    this.caps = closedGroups(shapes, size).map((group, number) => {
-      const plane = new Mesh(new PlaneGeometry(4 * size, 4 * size), capMaterial());
-      plane.frustumCulled = false;
-      plane.renderOrder = -100 + 2 * number + 1;
-      plane.onAfterRender = (renderer) => renderer.clearStencil();
-      const counting = group.flatMap((shape) => shape.counting);
-      for (const mesh of counting) {
-        mesh.frustumCulled = false;
-        mesh.renderOrder = -100 + 2 * number;
-      }
-      return { group, plane, counting };
-    });
+    const groups = closedGroups(shapes, size);
+    const known = this.caps.length === groups.length && this.caps.every(({ group }, i) => sameMembers(group, groups[i]));
+    if (!known) {
+      this.dispose();
+      this.caps = groups.map((group, number) => capOf(group, -100 + 2 * number));
+    }
+    for (const { plane } of this.caps) plane.scale.setScalar(4 * size);
     this.update();
-    return this.caps.flatMap((cap) => [...cap.counting, cap.plane]);
+    return known ? [] : this.caps.flatMap((cap) => [...cap.counting, cap.plane]);
   }
 
   /** Which side is kept: the one below the offset, or with `flip` the one above. */
@@ -84,4 +78,20 @@ export class Section {
     }
     this.caps = [];
   }
+}
+
+const sameMembers = (one, other) => one.length === other.length && one.every((shape, i) => shape === other[i]);
+
+/** What counts the surfaces of a group before the plane, and the plane, drawn in this order. */
+function capOf(group, order) {
+  const plane = new Mesh(new PlaneGeometry(1, 1), capMaterial());
+  plane.frustumCulled = false;
+  plane.renderOrder = order + 1;
+  plane.onAfterRender = (renderer) => renderer.clearStencil();
+  const counting = group.flatMap((shape) => shape.counting);
+  for (const mesh of counting) {
+    mesh.frustumCulled = false;
+    mesh.renderOrder = order;
+  }
+  return { group, plane, counting };
 }

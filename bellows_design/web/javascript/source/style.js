@@ -94,7 +94,7 @@ input[type="checkbox"] { width: 16px; height: 16px; margin: 0; accent-color: var
 `;
 
 export const VIEWER_STYLE = `${SHARED_STYLE}
-.legend { position: absolute; top: 10px; right: 12px; display: grid; gap: 6px; justify-items: end;
+.legend { position: absolute; top: 10px; right: 12px; display: grid; gap: 11px; justify-items: end;
   pointer-events: none; max-width: 60%; }
 .legend-title { font-weight: 600; text-align: right; }
 .legend-scale { position: relative; width: 14px; height: min(170px, 38cqh); margin-right: 58px;

@@ -17,21 +17,50 @@ function welded(surface) {
   return same;
 }
 
-/** Unit normals of all triangles in the first frame. */
+/** Lower triangles have no certain normal, as their corners are rounded; steps of the coordinates. */
+const LOWEST = 24;
+
+/** Unit normals of all triangles in the first frame, and for each the corner that begins its longest
+    edge if it is too thin for a normal, else −1. */
 function faceNormals(surface) {
   const { cells, levels, low, high, steps } = surface;
-  const scale = [0, 1, 2].map((axis) => (high[axis] - low[axis]) / steps);
+  const [sx, sy, sz] = [0, 1, 2].map((axis) => (high[axis] - low[axis]) / steps);
+  const lowest = LOWEST * Math.max(sx, sy, sz);
   const normals = new Float32Array(cells.length);
+  const thin = new Int32Array(cells.length / 3).fill(-1);
   for (let t = 0; t < cells.length; t += 3) {
-    const [a, b, c] = [3 * cells[t], 3 * cells[t + 1], 3 * cells[t + 2]];
-    const ux = (levels[b] - levels[a]) * scale[0], vx = (levels[c] - levels[a]) * scale[0];
-    const uy = (levels[b + 1] - levels[a + 1]) * scale[1], vy = (levels[c + 1] - levels[a + 1]) * scale[1];
-    const uz = (levels[b + 2] - levels[a + 2]) * scale[2], vz = (levels[c + 2] - levels[a + 2]) * scale[2];
+    const a = 3 * cells[t], b = 3 * cells[t + 1], c = 3 * cells[t + 2];
+    const ux = (levels[b] - levels[a]) * sx, vx = (levels[c] - levels[a]) * sx;
+    const uy = (levels[b + 1] - levels[a + 1]) * sy, vy = (levels[c + 1] - levels[a + 1]) * sy;
+    const uz = (levels[b + 2] - levels[a + 2]) * sz, vz = (levels[c + 2] - levels[a + 2]) * sz;
     const x = uy * vz - uz * vy, y = uz * vx - ux * vz, z = ux * vy - uy * vx;
-    const length = Math.hypot(x, y, z) || 1;
-    normals.set([x / length, y / length, z / length], t);
+    const double = Math.hypot(x, y, z);
+    normals[t] = x / (double || 1);
+    normals[t + 1] = y / (double || 1);
+    normals[t + 2] = z / (double || 1);
+    const first = Math.hypot(ux, uy, uz), last = Math.hypot(vx, vy, vz);
+    const second = Math.hypot(vx - ux, vy - uy, vz - uz);
+    const longest = Math.max(first, second, last);
+    if (double < lowest * longest) thin[t / 3] = t + (longest === first ? 0 : longest === second ? 1 : 2);
   }
-  return normals;
+  return { normals, thin };
+}
+
+/** Give thin triangles the normal of the one across their longest edge, as far as that has one. */
+function borrowNormals({ normals, thin }, cells, same, edges) {
+  let left = thin.filter((corner) => corner >= 0);
+  for (let before = Infinity; left.length && left.length < before; ) {
+    before = left.length;
+    left = left.filter((corner) => {
+      const next = corner % 3 === 2 ? corner - 2 : corner + 1;
+      const other = edges.get(same[cells[next]] * same.length + same[cells[corner]]);
+      if (other === undefined || thin[Math.floor(other / 3)] >= 0) return true;
+      const [mine, theirs] = [corner - (corner % 3), other - (other % 3)];
+      normals.copyWithin(mine, theirs, theirs + 3);
+      thin[mine / 3] = -1;
+      return false;
+    });
+  }
 }
 
 function root(parents, corner) {
@@ -63,8 +92,10 @@ function directedEdges(cells, same) {
 export function topologyOf(surface) {
   const { cells } = surface;
   const same = welded(surface);
-  const normals = faceNormals(surface);
   const edges = directedEdges(cells, same);
+  const faces = faceNormals(surface);
+  const { normals, thin } = faces;
+  borrowNormals(faces, cells, same, edges);
   const parents = Uint32Array.from({ length: cells.length }, (_, i) => i);
   const smooth = Math.cos((CREASE * Math.PI) / 180);
   const creases = [], open = [];
@@ -81,7 +112,7 @@ export function topologyOf(surface) {
     const cosine =
       normals[f] * normals[g] + normals[f + 1] * normals[g + 1] + normals[f + 2] * normals[g + 2];
     const otherNext = other % 3 === 2 ? other - 2 : other + 1;
-    if (cosine > smooth) {
+    if (cosine > smooth || thin[f / 3] >= 0 || thin[g / 3] >= 0) {
       parents[root(parents, corner)] = root(parents, otherNext);
       parents[root(parents, next)] = root(parents, other);
     } else if (a < b) creases.push(corner, next);

@@ -19,6 +19,8 @@ const NO_WEBGL =
 const LOST = "The graphics card was taken away from this page. The view comes back when it is free again.";
 const PALETTE = ["", "#d98f4e", "#6aa66a", "#b07fb8", "#c8b04a", "#5fb0b0"];
 const FRAMES_PER_SECOND = 6;
+const LEGEND_WIDTH = 84; // pixels that it needs beside the scene
+const NARROW = 560; // pixels: below, the legend lies over the scene
 
 /**
  * A view of one scene in `host`, an element of the page.
@@ -304,13 +306,15 @@ export class Viewer extends EventTarget {
       camera is taken away when the cut is switched on or its axis changes. */
   setSection({ axis, offset_mm, on, flip } = {}) {
     const { section } = this;
-    const turned = (axis !== undefined && axis !== section.axis) || (on && !section.on);
-    if (axis !== undefined) section.axis = axis;
+    const other = axis !== undefined && axis !== section.axis;
+    const turned = other || (on && !section.on);
+    if (other) section.axis = axis;
     const number = ["x", "y", "z"].indexOf(section.axis);
-    const { low, high } = this.bounds;
-    if (offset_mm !== undefined) section.offset = offset_mm;
-    else if (turned && (axis !== undefined || !section.placed)) section.offset = (low[number] + high[number]) / 2;
-    section.placed = true;
+    if (offset_mm !== undefined || ((other || !section.placed) && this.shapes.length)) {
+      const { low, high } = this.bounds;
+      section.offset = offset_mm ?? (low[number] + high[number]) / 2;
+      section.placed = true;
+    }
     if (on !== undefined) section.on = Boolean(on);
     if (flip !== undefined) section.flip = Boolean(flip);
     else if (turned && this.camera) section.flip = this.camera.towards.getComponent(number) < 0;
@@ -342,7 +346,9 @@ export class Viewer extends EventTarget {
     if (!this.camera || !this.shapes.length) return;
     const points = this.shapes.flatMap((shape) => (shape.visible ? shape.samplePoints() : []));
     if (!points.length) return;
-    this.camera.fit(points, this.size, Array.isArray(view) ? view : VIEWS[view] || VIEWS.corner);
+    const direction = Array.isArray(view) ? view : VIEWS[view] || VIEWS.corner;
+    const aside = this.fieldNames.length && this.camera.width > NARROW ? LEGEND_WIDTH : 0;
+    this.camera.fit(points, this.size, direction, aside);
     this.touched = false;
     this.invalidate();
     this.tell("view");
@@ -463,6 +469,7 @@ export class Viewer extends EventTarget {
       surfaces: this.shapes.map((shape) => ({
         name: shape.name, visible: shape.visible, closed: shape.closed, colour: shape.data.colour,
         cells: shape.data.cells.length / shape.data.corners, points: shape.data.points, sample: sample(shape),
+        sharp_edges: shape.topology.creases.length / 2,
       })),
       renders: this.renders,
       lost: Boolean(this.lost),
