@@ -32,7 +32,7 @@ PICTURE = Path(__file__).with_name("reports.png")
 WIDE, HEIGHT, SHOWN = 1100, 1500, 520
 """px of the window, and the height of each page in the picture."""
 
-COLOURS = 200
+COLOURS = 256
 
 
 def written(name: str, folder: Path) -> Path:

@@ -16,6 +16,14 @@ from bellows_design.reports.page.findings import Findings
 Run = Callable[..., tuple[int, str, str]]
 
 
+@pytest.fixture(autouse=True)
+def nothing_solved(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Made-up evaluations have no solution to follow or to take derivatives of."""
+    for name in ("deformed_of", "sensitivities_of"):
+        where = f"bellows_design.reports.page.findings.{name}"
+        monkeypatch.setattr(where, lambda *_: "nothing was solved")
+
+
 @pytest.fixture
 def computed(stub_stages: Callable[..., None], monkeypatch: pytest.MonkeyPatch) -> None:
     """Made-up stages; the page names the design alone, as the stub's part is a cube."""
