@@ -44,7 +44,7 @@ class PrinterProfile(Record):
         >>> from printers import load_profile
         >>> printer = load_profile("prusa_i3")
         >>> print(f"{printer.minimum_wall:.1f} mm, {printer.minimum_floor:.1f} mm")  # wall, floor
-        walls from 1.2 mm, floors from 0.8 mm
+        1.2 mm, 0.8 mm
         >>> changed = printer.model_copy(update={"build_volume": (120.0, 120.0, 120.0)})
     """
 

@@ -52,7 +52,7 @@ class SlicerAdvice(Record):
         >>> from printers import load_profile
         >>> advice = load_profile("prusa_i3").slicer
         >>> print(f"{advice.nozzle_temperature:g} °C, {advice.print_speed:g} mm/s")
-        238 °C, 15 mm/s, flow 110 %
+        238 °C, 15 mm/s
     """
 
     nozzle_temperature: Celsius = Field(description="of the nozzle")
