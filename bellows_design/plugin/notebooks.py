@@ -12,14 +12,40 @@ KINDS: tuple[type, ...] = (Design, Evaluation)
 
 
 def load_ipython_extension(shell: Any) -> None:
-    """Show every design and evaluation by its preview, in this notebook."""
+    """Show every design and evaluation by its preview, in this notebook.
+
+    Examples:
+        >>> from types import SimpleNamespace
+        >>> from bellows_design.plugin import load_ipython_extension
+        >>> class Formatter(dict):
+        ...     for_type = dict.__setitem__
+        >>> html = Formatter()  # as IPython has one for each kind of display
+        >>> formatter = SimpleNamespace(formatters={"text/html": html})
+        >>> load_ipython_extension(SimpleNamespace(display_formatter=formatter))
+        >>> print(sorted(kind.__name__ for kind in html))
+        ['Design', 'Evaluation']
+    """
     html = shell.display_formatter.formatters["text/html"]
     for kind in KINDS:
         html.for_type(kind, _html)
 
 
 def unload_ipython_extension(shell: Any) -> None:
-    """Show them as text again."""
+    """Show them as text again.
+
+    Examples:
+        >>> from types import SimpleNamespace
+        >>> from bellows_design.plugin import load_ipython_extension, unload_ipython_extension
+        >>> class Formatter(dict):
+        ...     for_type = dict.__setitem__
+        >>> html = Formatter()
+        >>> formatter = SimpleNamespace(formatters={"text/html": html})
+        >>> shell = SimpleNamespace(display_formatter=formatter)
+        >>> load_ipython_extension(shell)
+        >>> unload_ipython_extension(shell)
+        >>> print(len(html))
+        0
+    """
     html = shell.display_formatter.formatters["text/html"]
     for kind in KINDS:
         html.pop(kind, None)

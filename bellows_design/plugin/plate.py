@@ -69,6 +69,12 @@ def plate(
         DesignError: they do not fit, there is none, or one is no design.
         GeometryError: The CAD kernel cannot build a part.
         TessellationError: A part's triangles do not close.
+
+    Examples:
+        >>> from bellows_design.plugin import plate
+        >>> pair = plate({"prototype_1": 2}, spacing=8.0)  # mm
+        >>> print([piece.name for piece in pair.children])
+        ['prototype_1', 'prototype_1_2']
     """
     return assembly_of(pieces(designs, spacing, bed))
 

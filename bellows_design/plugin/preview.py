@@ -37,6 +37,13 @@ class Preview:
 
     ``title`` and ``rows`` (what, value) are the table, ``page`` is a whole HTML page with the shape
     in 3D that needs no other file.
+
+    Examples:
+        >>> from bellows_design.plugin import Preview
+        >>> shown = Preview("a finger", (("length", "50 mm"),), "<p>its shape</p>")
+        >>> shown.save("finger.html")
+        >>> "50 mm" in shown._repr_html_()
+        True
     """
 
     title: str
@@ -73,6 +80,12 @@ def preview(shape: Shape, **parameters: Any) -> Preview:
     Raises:
         DesignError: There is no such design, or the values make none.
         GeometryError: The CAD kernel cannot build the part.
+
+    Examples:
+        >>> from bellows_design.plugin import preview
+        >>> shown = preview("prototype_1", bubble_thickness=1.6)  # mm
+        >>> print(shown.title)
+        prototype_1
     """
     if isinstance(shape, Evaluation):
         return _of_evaluation(shape)

@@ -41,6 +41,14 @@ def read_mesh(path: Path | str, regions: Sequence[str] | None = None) -> Mesh:
         SolverError: another ending, a file that says no mesh of tetrahedra, with its name and, of a
             ``.inp``, the line; or sets of elements that overlap.
         OSError: the file cannot be read.
+
+    Examples:
+        >>> from solver import read_mesh, write_mesh
+        >>> from solver.mesh import block
+        >>> write_mesh("bar.msh", block((30, 4, 4), (6, 1, 1)))  # mm; as another program might
+        >>> bar = read_mesh("bar.msh")
+        >>> print(bar.tets.shape, sorted(bar.surfaces))
+        (36, 10) ['x0', 'x1', 'y0', 'y1', 'z0', 'z1']
     """
     place = file_path("read_mesh: path", path)
     if place.suffix.lower() not in SUFFIXES:

@@ -25,6 +25,14 @@ def write_mesh(path: Path | str, mesh: Mesh) -> None:
         SolverError: another ending, a name of a set that the format does not take, or a triangle
             that is no face of a tetrahedron.
         OSError: the file cannot be written.
+
+    Examples:
+        >>> from pathlib import Path
+        >>> from solver import write_mesh
+        >>> from solver.mesh import block
+        >>> write_mesh("bar.inp", block((30, 4, 4), (6, 1, 1)))  # mm
+        >>> "C3D10" in Path("bar.inp").read_text()
+        True
     """
     place = file_path("write_mesh: path", path)
     check_instance("write_mesh: mesh", mesh, Mesh)

@@ -58,6 +58,17 @@ def write_deck(
         SolverError: another ending or program; a moving plane, springs, membranes, motions that do
             not grow in proportion to the load, or a material that the program does not have.
         OSError: the file cannot be written.
+
+    Examples:
+        >>> from pathlib import Path
+        >>> from solver import Ogden, Problem, Supports, write_deck
+        >>> from solver.mesh import block
+        >>> shell = block((30, 10, 10), (6, 4, 4), hollow=((1, 1, 1), (5, 3, 3)))
+        >>> problem = Problem(shell, Ogden.neo_hooke(0.5), Supports(("x0",)), ("cavity",))
+        >>> write_deck("shell.inp", problem, 0.02)  # MPa; nothing is left out
+        ()
+        >>> "*HYPERELASTIC" in Path("shell.inp").read_text().upper()
+        True
     """
     place = file_path("write_deck: path", path)
     check_instance("write_deck: problem", problem, Problem)
