@@ -135,7 +135,8 @@ class Session:
                 self.fail("change", why)
         if not self._valid:
             return
-        outcome, why = await _ended(self._submit(self._lanes.preview, "preview", "preview", {}))
+        with self._lanes.background.held():
+            outcome, why = await _ended(self._submit(self._lanes.preview, "preview", "preview", {}))
         if outcome in ("failed", "crashed"):
             self._send("working", self._revision, what="preview", message=why, fraction=None)
         self._lanes.warm()

@@ -51,8 +51,16 @@ class Handle:
         """Send without waiting."""
         self._requests.put(message)
 
+    def pause(self) -> None:
+        """Halt the process and those it started, until ``resume``."""
+        _each_of_tree(self._process.pid, "suspend")
+
+    def resume(self) -> None:
+        """Let them go on."""
+        _each_of_tree(self._process.pid, "resume")
+
     def end(self) -> None:
-        """End the process and those it started, without waiting."""
+        """End the process and those it started, without waiting. It is not paused."""
         self._requests.put(None)
         threading.Thread(target=self._end, daemon=True).start()
 
@@ -74,7 +82,7 @@ class Handle:
         with suppress(subprocess.TimeoutExpired):
             self._process.wait(EXIT_SECONDS)
         if self._process.poll() is None:
-            _kill_tree(self._process.pid)
+            _each_of_tree(self._process.pid, "kill")
             self._process.wait()
 
     def _write(self) -> None:
@@ -110,12 +118,13 @@ def _launched(tasks: str, errors: int) -> subprocess.Popen[bytes]:
     )
 
 
-def _kill_tree(number: int) -> None:
+def _each_of_tree(number: int, action: str) -> None:
+    """Call a method of ``psutil.Process`` on a process and all it started."""
     import psutil
 
-    with suppress(psutil.NoSuchProcess):
+    with suppress(psutil.Error):
         process = psutil.Process(number)
         family: list[Any] = [*process.children(recursive=True), process]
         for each in family:
-            with suppress(psutil.NoSuchProcess):
-                each.kill()
+            with suppress(psutil.Error):
+                getattr(each, action)()

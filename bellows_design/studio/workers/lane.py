@@ -7,8 +7,8 @@ it does not answer in time, its process is ended and a spare one takes over.
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Mapping
-from contextlib import suppress
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from itertools import count
 from typing import Any, Literal
@@ -72,6 +72,8 @@ class Lane:
         self._running: Job | None = None
         self._ends_in_a_row = 0
         self._closed = False
+        self._holds = 0
+        self._paused: Handle | None = None
         self.on_start: Callable[[], list[Job]] = list
         """Jobs that every new process is given first."""
 
@@ -106,9 +108,29 @@ class Lane:
         if self._running is not None and stale(self._running):
             self._stop(self._running)
 
+    @contextmanager
+    def held(self) -> Iterator[None]:
+        """Within the block the job that runs gets no processor: something else is more urgent."""
+        self._holds += 1
+        if self._paused is None and self._running is not None and self._process is not None:
+            self._paused = self._process
+            self._paused.pause()
+        try:
+            yield
+        finally:
+            self._holds -= 1
+            if not self._holds:
+                self._go_on()
+
+    def _go_on(self) -> None:
+        if self._paused is not None:
+            self._paused.resume()
+            self._paused = None
+
     def close(self) -> None:
         """End all processes, and wait for that."""
         self._closed = True
+        self._go_on()
         self._drop(lambda _: True)
         if self._running is not None:
             self._running.end("cancelled")
@@ -150,7 +172,7 @@ class Lane:
         """End the process of a stale job that goes on, once another job waits for it."""
         if self._running is not job or self._process is None:
             return
-        if not self._waiting:
+        if not self._waiting or self._paused is self._process:
             asyncio.get_running_loop().call_later(PATIENCE, self._replace_if_still, job)
             return
         process, self._process, self._running = self._process, None, None

@@ -210,3 +210,37 @@ def test_processes_end_with_a_server_that_is_killed() -> None:
         server.send_signal(signal.SIGKILL)
         server.wait()
     asyncio.run(gone(process))
+
+
+def test_a_job_that_is_held_stands_still_and_then_goes_on() -> None:
+    async def check(lane: Lane) -> None:
+        heard: list[Any] = []
+        running = lane.submit(job("slow", heard))
+        while not heard:
+            await asyncio.sleep(0.01)
+        with lane.held(), lane.held():
+            await asyncio.sleep(0.1)  # what was on its way
+            before = len(heard)
+            await asyncio.sleep(0.4)
+            assert len(heard) == before
+            assert psutil.Process(lane.numbers[0]).status() == psutil.STATUS_STOPPED
+        while len(heard) == before:
+            await asyncio.sleep(0.01)
+        lane.cancel(PAGE)
+        assert await running.outcome == ("cancelled", "")
+
+    in_loop(check)
+
+
+def test_a_lane_that_is_held_can_be_closed_at_once() -> None:
+    async def check(lane: Lane) -> None:
+        heard: list[Any] = []
+        lane.submit(job("slow", heard))
+        while not heard:
+            await asyncio.sleep(0.01)
+        (number,) = lane.numbers
+        with lane.held():
+            lane.close()
+        assert not psutil.pid_exists(number)
+
+    in_loop(check)
