@@ -129,10 +129,7 @@ class Session:
 
     async def _follow_up(self) -> None:
         """All that follows once the sliders rest, as long as the design stays."""
-        if self._changing is not None:
-            outcome, why = await _ended(self._changing)
-            if outcome in ("failed", "crashed"):
-                self.fail("change", why)
+        await self._settled()
         if not self._valid:
             return
         with self._lanes.background.held():
@@ -144,6 +141,15 @@ class Session:
             outcome, why = await _ended(self._submit(self._lanes.background, stage, stage, {}))
             if outcome in ("failed", "crashed"):
                 self.fail(stage, why)
+
+    async def _settled(self) -> None:
+        """Wait until problems and shape are known; a cell that comes in between asks anew."""
+        awaited = None
+        while self._changing is not awaited and self._changing is not None:
+            awaited = self._changing
+            outcome, why = await _ended(awaited)
+            if outcome in ("failed", "crashed"):
+                self.fail("change", why)
 
     def _ask(self, what: str, content: Mapping[str, Any]) -> None:
         job = self._submit(self._lanes.background, what, what, content)
