@@ -97,7 +97,8 @@ class LightNeighbourhood:
             near = self._near.anchor
             counted = replace(near, design=of_count(near.design, count))
             self._assemblies[count] = Assembly.of(counted)
-        return self._assemblies[count].surface(found)
+        assembly = self._assemblies[count]
+        return assembly.surface(replace(found, anchor=assembly.anchor))
 
     def _measured(self) -> TakenOver:
         """The coarsest mesh's own solution is a rough one: it is solved again."""
