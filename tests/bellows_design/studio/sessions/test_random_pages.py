@@ -12,7 +12,7 @@ from session_page import Page, in_loop
 
 from bellows_design.studio.workers import lane as lanes
 
-MOVES = 250
+SLOW = pytest.mark.slow
 
 KINDS = ("", "", "", "follows", "follows", "invalid", "slow", "deaf", "fail", "crash")
 """What a design does; ``follows``: its shape waits for a cell, which its previews send."""
@@ -21,16 +21,18 @@ PAUSES = (0.0, 0.0, 0.001, 0.005, 0.02, 0.05, 0.15)
 """s. Between two messages; so short that most of what was begun becomes stale under way."""
 
 
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize(
+    ("seed", "moves"), [(0, 30), *(pytest.param(seed, 250, marks=SLOW) for seed in range(1, 4))]
+)
 def test_every_last_rest_on_a_valid_design_is_answered(
-    seed: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    seed: int, moves: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(lanes, "PATIENCE", 0.1)
     chance = random.Random(seed)
 
     async def check(page: Page) -> None:
         before: list[dict[str, Any]] = [{}]
-        for revision in range(1, MOVES + 1):
+        for revision in range(1, moves + 1):
             await _moved(page, revision, chance, before)
             if revision % 10 == 0:
                 await _rested(page, revision, chance)
@@ -59,20 +61,12 @@ async def _moved(
 
 async def _rested(page: Page, revision: int, chance: random.Random) -> None:
     """A valid design at last: preview and refined answer, both its own, and no later ones."""
-    kind = chance.choice(("", "follows"))
-    number = 1000 + revision
-    values = {"stub": kind, "length": float(number)}
-    page.session.receive(_request("change", revision, values))
+    values = {"stub": chance.choice(("", "follows")), "length": 1000.0 + revision}
+    page.tell("change", revision, values=values)
     page.tell("rest", revision)
     for state in ("preview", "refined"):
         answer = await page.until("answer", state=state, values=values)
         assert answer["revision"] == revision
-
-
-def _request(kind: str, revision: int, values: dict[str, Any]) -> Any:
-    from bellows_design.studio.protocol import Request
-
-    return Request(kind, revision, {"values": values})  # type: ignore[arg-type]
 
 
 def test_a_cell_that_comes_while_the_change_still_waits_does_not_drop_the_answer(
