@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import json
+import os
+import subprocess
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -200,3 +203,32 @@ def test_page_with_its_first_answer_fits_and_can_be_read(
     with studio_page(browser, address, width=width, theme=theme) as (page, _):
         assert wider_than_the_window(page) == 0
         assert hard_to_read(page) == []
+
+
+def test_forces_and_files_of_an_approved_part_are_those_of_the_commands(
+    browser: Any, tmp_path: Path
+) -> None:
+    store = {"BELLOWS_CACHE": str(tmp_path / "store")}
+    with (
+        running_studio("finger", tmp_path / "exports", store) as url,
+        studio_page(browser, url) as (page, heard),
+    ):
+        page.locator("#tab-forces").click()
+        page.locator("label[for=scene-blocked]").click()
+        page.locator("#scene-field-support").select_option("held")
+        page.locator("#scene-run").click()
+        page.locator("#scene-figures", has_text="Force").wait_for(timeout=LONG_MS)
+        force = next(each for each in heard.last("scene")["figures"] if each["label"] == "Force")
+        assert force["value"] > 0
+        assert page.locator("#scene-picture").evaluate(
+            "image => image.decode().then(() => image.naturalWidth)"
+        )
+        page.locator("#run").click()
+        page.locator("#run-status", has_text="Approved").wait_for(timeout=LONG_MS)
+        with page.expect_download() as download:
+            page.locator("#run-files a", has_text="finger.stl").click()
+        downloaded = Path(download.value.path()).read_bytes()
+    output = tmp_path / "by-command"
+    command = [sys.executable, "-m", "bellows_design", "run", "finger", "--output", str(output)]
+    subprocess.run(command, env={**os.environ, **store}, check=True, capture_output=True)
+    assert downloaded == (output / "finger" / "finger.stl").read_bytes()
