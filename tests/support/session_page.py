@@ -57,9 +57,7 @@ def read(message: str | bytes) -> dict[str, Any]:
     return {**json.loads(message[4 : 4 + size]), "payload": message[4 + size :]}
 
 
-def in_loop(
-    folder: Path, check: Callable[[Page], Awaitable[None]], seconds: float = 60.0
-) -> None:
+def in_loop(folder: Path, check: Callable[[Page], Awaitable[None]], seconds: float = 60.0) -> None:
     """Run a check of a page whose first design has been answered."""
 
     async def whole() -> None:
