@@ -19,8 +19,8 @@ def tasks() -> dict[str, Any]:
         "open": _open,
         "change": _change,
         "toml": _toml,
-        "cell": _nothing,
-        "anchor": _nothing,
+        "cell": _slow_cell,
+        "anchor": _anchor,
         "warm": _nothing,
         "preview": _work("preview"),
         "part": _nothing,
@@ -38,14 +38,30 @@ def _open(values: dict[str, Any], _: Any, report: Any) -> None:
 
 
 def _change(values: dict[str, Any], _: Any, report: Any) -> None:
-    invalid = values["values"].get("stub") == "invalid"
+    kind = values["values"].get("stub")
+    invalid = kind == "invalid"
     report("problems", problems=[{"parameter": "stub", "message": "no"}] * invalid)
-    if not invalid:
+    if kind == "follows":
+        report("shape_follows", why="")
+    elif not invalid:
         report("shape", {"payload": np.arange(3, dtype=np.uint8)}, source="morph")
 
 
 def _toml(values: dict[str, Any], _: Any, report: Any) -> None:
     report("toml", name="stub", text=f"values = {sorted(values['values'])}", digest="")
+
+
+def _send_cell(report: Any) -> None:
+    report("cell", base="", values={}, surfaces=[])
+
+
+def _anchor(_: Any, __: Any, report: Any) -> None:
+    time.sleep(STEP)
+    _send_cell(report)
+
+
+def _slow_cell(values: dict[str, Any], _: Any, __: Any) -> None:
+    time.sleep(values["values"].get("seconds", STEP))
 
 
 def _nothing(_: Any, __: Any, ___: Any) -> None:
@@ -57,7 +73,9 @@ def _work(state: str) -> Any:
         kind = values["values"].get("stub", "")
         if kind == "crash":
             os._exit(7)
-        if kind == "hang":
+        if kind == "deaf":
+            report.stage("stub")
+        if kind in ("hang", "deaf"):
             time.sleep(600)
         if kind == "fail":
             raise ValueError("it cannot be")
@@ -65,5 +83,9 @@ def _work(state: str) -> Any:
             report.stage("stub")
             time.sleep(STEP)
         report("answer", state=state, process=os.getpid(), values=values["values"])
+        if kind == "follows":
+            _send_cell(report)
+            if state == "refined":
+                report("evaluated", record={})
 
     return work

@@ -19,14 +19,17 @@ FIRST_ANSWER_MS = 600_000
 
 MOVE = """
 async ({name, values, key}) => {
-  // The slider is moved as a hand does it: some inputs, one a frame. Times are those of the page.
+  // The slider is moved as a hand does it: pressed, some inputs, one a frame, and let go; where
+  // frames are slow it rests in between, and all of that is one step to undo. The page's own times.
   const frame = () => new Promise(requestAnimationFrame);
   const angle = document.getElementById("angle");
   const figures = document.getElementById("figures");
   const input = document.querySelector(`[data-parameter="${name}"] input[type=range]`);
   input.scrollIntoView({block: "center"});
   const field = document.querySelector(`[data-parameter="${name}"] input[type=text]`);
+  const pointer = (kind) => input.dispatchEvent(new PointerEvent(kind, {bubbles: true}));
   let began = performance.now();
+  pointer("pointerdown");
   for (const value of values) {
     const before = field.value;
     input.value = value;
@@ -34,6 +37,7 @@ async ({name, values, key}) => {
     if (field.value !== before) began = performance.now();
     await frame();
   }
+  pointer("pointerup");
   const state = () => figures.dataset.state;
   const shown = () => ["preview", "refined", "invalid", "failed"].includes(state());
   const deadline = began + key.limit_ms;

@@ -119,13 +119,14 @@ class Session:
         """Nothing that was begun for the design before is needed any more."""
         if self._chain is not None:
             self._chain.cancel()
+            self._chain = None
         self._lanes.preview.cancel(self.number)
         self._lanes.background.cancel(self.number)
 
     def _rest(self) -> None:
-        if self._chain is not None and not self._chain.done():
-            self._chain.cancel()
-        self._chain = self._keep(self._follow_up())
+        """The page may ask again for what already follows: that goes on."""
+        if self._chain is None or self._chain.done():
+            self._chain = self._keep(self._follow_up())
 
     async def _follow_up(self) -> None:
         """All that follows once the sliders rest, as long as the design stays."""

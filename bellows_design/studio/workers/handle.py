@@ -39,6 +39,8 @@ class Handle:
         self._errors = tempfile.TemporaryFile()  # noqa: SIM115
         self._process = _launched(tasks, self._errors.fileno())
         self._requests: SimpleQueue[Message | None] = SimpleQueue()
+        self._halted: list[Any] = []
+        self._spoke = False
         for work in (self._write, lambda: self._listen(heard)):
             threading.Thread(target=work, daemon=True).start()
 
@@ -52,12 +54,20 @@ class Handle:
         self._requests.put(message)
 
     def pause(self) -> None:
-        """Halt the process and those it started, until ``resume``."""
-        _each_of_tree(self._process.pid, "suspend")
+        """Halt the process and those it started, until ``resume``.
+
+        Only on Linux, where one that is halted is woken when the server is killed, and so ends as
+        well; elsewhere it goes on. So does one that has said nothing yet: it may still be loading
+        what wakes it.
+        """
+        if sys.platform == "linux" and self._spoke and self._process.poll() is None:
+            self._halted = _family(self._process.pid)
+            _each(self._halted, "suspend")
 
     def resume(self) -> None:
-        """Let them go on."""
-        _each_of_tree(self._process.pid, "resume")
+        """Let them go on, also those that outlived the process."""
+        _each(self._halted, "resume")
+        self._halted = []
 
     def end(self) -> None:
         """End the process and those it started, without waiting. It is not paused."""
@@ -82,7 +92,7 @@ class Handle:
         with suppress(subprocess.TimeoutExpired):
             self._process.wait(EXIT_SECONDS)
         if self._process.poll() is None:
-            _each_of_tree(self._process.pid, "kill")
+            _each(_family(self._process.pid), "kill")
             self._process.wait()
 
     def _write(self) -> None:
@@ -98,6 +108,7 @@ class Handle:
     def _listen(self, heard: Heard) -> None:
         stream = cast(FileIO, self._process.stdout)
         while (message := receive(stream)) is not None:
+            self._spoke = True
             heard(message)
         self._process.wait()
         heard(None)
@@ -118,13 +129,20 @@ def _launched(tasks: str, errors: int) -> subprocess.Popen[bytes]:
     )
 
 
-def _each_of_tree(number: int, action: str) -> None:
-    """Call a method of ``psutil.Process`` on a process and all it started."""
+def _family(number: int) -> list[Any]:
+    """A process and all it started, as ``psutil.Process``, itself last."""
     import psutil
 
     with suppress(psutil.Error):
         process = psutil.Process(number)
-        family: list[Any] = [*process.children(recursive=True), process]
-        for each in family:
-            with suppress(psutil.Error):
-                getattr(each, action)()
+        return [*process.children(recursive=True), process]
+    return []
+
+
+def _each(family: list[Any], action: str) -> None:
+    """Call a method of each; none is mistaken for a later process of the same number."""
+    import psutil
+
+    for each in family:
+        with suppress(psutil.Error):
+            getattr(each, action)()

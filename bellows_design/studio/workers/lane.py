@@ -217,6 +217,8 @@ class Lane:
     def _ended(self, process: Handle) -> None:
         """The process ended by itself: its job is lost, the others go on in another one."""
         self._process, job, self._running = None, self._running, None
+        if self._paused is process:
+            self._go_on()
         self._ends_in_a_row += 1
         process.end()
         if job is not None:

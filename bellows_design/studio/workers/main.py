@@ -14,6 +14,7 @@ import signal
 import sys
 import threading
 from collections.abc import Callable
+from contextlib import suppress
 from importlib import import_module
 from io import FileIO
 from queue import SimpleQueue
@@ -21,6 +22,9 @@ from typing import Any
 
 from bellows_design.studio.workers.reporting import Arrays, Cancelled, Report, Send
 from solver.meshing.messages import Message, receive, send
+
+PARENT_DEATH_SIGNAL = 1
+"""PR_SET_PDEATHSIG of Linux's <sys/prctl.h>."""
 
 Task = Callable[[dict[str, Any], dict[str, Any], Report], None]
 
@@ -56,6 +60,7 @@ class Desk:
 def main() -> None:
     """Do one job after the other."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    _wake_with_the_end_of_the_server()
     requests, results = FileIO(os.dup(0), "r"), FileIO(os.dup(1), "w")
     os.dup2(2, 1)
     sys.stdout = sys.stderr
@@ -67,6 +72,15 @@ def main() -> None:
         outcome, why = _done(tasks, message, Report(_sender(results, number), desk.stale(number)))
         desk.forget(number)
         send(results, Message({"job": number, "outcome": outcome, "why": why}))
+
+
+def _wake_with_the_end_of_the_server() -> None:
+    """Should the server be killed while this process is halted, the end of stdin is noticed."""
+    if sys.platform == "linux":
+        import ctypes
+
+        with suppress(OSError, AttributeError):
+            ctypes.CDLL(None).prctl(PARENT_DEATH_SIGNAL, signal.SIGCONT)
 
 
 def _done(tasks: dict[str, Task], message: Message, report: Report) -> tuple[str, str]:

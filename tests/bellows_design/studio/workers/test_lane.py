@@ -182,24 +182,28 @@ def test_closing_ends_every_process_also_one_that_hangs(monkeypatch: pytest.Monk
 
 SERVER = """
 import asyncio
+from contextlib import nullcontext
 from bellows_design.studio.workers.lane import Job, Lane
 
 async def main():
     lane = Lane("stub_tasks")
-    lane.submit(Job(1, "t", "preview", {"values": {"stub": "hang"}}, lambda *_: None))
-    await asyncio.sleep(0.5)
-    print(*lane.numbers, flush=True)
-    await asyncio.sleep(600)
+    begun = asyncio.Event()
+    lane.submit(Job(1, "t", "preview", {"values": {"stub": "deaf"}}, lambda *_: begun.set()))
+    await begun.wait()
+    with lane.held() if HELD else nullcontext():
+        print(*lane.numbers, flush=True)
+        await asyncio.sleep(600)
 
 asyncio.run(main())
 """
 
 
 @pytest.mark.skipif(os.name == "nt", reason="signals of POSIX")
-def test_processes_end_with_a_server_that_is_killed() -> None:
+@pytest.mark.parametrize("held", [False, True])
+def test_processes_end_with_a_server_that_is_killed(held: bool) -> None:
     places = os.pathsep.join([*sys.path])
     with subprocess.Popen(
-        [sys.executable, "-c", SERVER],
+        [sys.executable, "-c", f"HELD = {held}\n{SERVER}"],
         stdout=subprocess.PIPE,
         env={**os.environ, "PYTHONPATH": places},
         cwd=Path(__file__).parent,
@@ -212,6 +216,10 @@ def test_processes_end_with_a_server_that_is_killed() -> None:
     asyncio.run(gone(process))
 
 
+linux = pytest.mark.skipif(sys.platform != "linux", reason="only there jobs are held")
+
+
+@linux
 def test_a_job_that_is_held_stands_still_and_then_goes_on() -> None:
     async def check(lane: Lane) -> None:
         heard: list[Any] = []
@@ -242,5 +250,49 @@ def test_a_lane_that_is_held_can_be_closed_at_once() -> None:
         with lane.held():
             lane.close()
         assert not psutil.pid_exists(number)
+
+    in_loop(check)
+
+
+async def started(lane: Lane, kind: str, owner: int = PAGE) -> Job:
+    """A job that has begun to report."""
+    heard: list[Any] = []
+    running = lane.submit(job(kind, heard, owner))
+    while not heard:
+        await asyncio.sleep(0.01)
+    return running
+
+
+@linux
+def test_a_process_that_is_killed_while_held_is_replaced() -> None:
+    async def check(lane: Lane) -> None:
+        running = await started(lane, "slow")
+        (number,) = lane.numbers
+        with lane.held():
+            os.kill(number, signal.SIGKILL)
+            assert (await running.outcome)[0] == "crashed"
+            assert await lane.submit(job("")).outcome == ("done", "")
+        assert await lane.submit(job("")).outcome == ("done", "")
+        assert number not in lane.numbers
+
+    in_loop(check)
+
+
+@pytest.mark.parametrize("kind", ["slow", "deaf"])
+def test_what_is_cancelled_while_held_makes_room_for_another_page(
+    kind: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(lanes, "PATIENCE", 0.2)
+
+    async def check(lane: Lane) -> None:
+        running = await started(lane, kind, OTHER)
+        with lane.held():
+            lane.cancel(OTHER)
+            assert await running.outcome == ("cancelled", "")
+            waiting = lane.submit(job(""))
+            await asyncio.sleep(0.5)
+        assert await waiting.outcome == ("done", "")
+        with lane.held():
+            assert await lane.submit(job("")).outcome == ("done", "")
 
     in_loop(check)

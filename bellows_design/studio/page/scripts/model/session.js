@@ -1,6 +1,7 @@
 // The design being changed: its values, revisions, and which answers belong to it.
 
 import { History } from "./history.js";
+import { Patience } from "./patience.js";
 import { changedValues, openedValues, same, valueOf, withValue } from "./values.js";
 
 export const REST_MS = 120;
@@ -19,18 +20,22 @@ const OF_ONE_REVISION = new Set([
   "ran",
 ]);
 
+// What fails without a figure: nothing more comes for the design.
+const ENDING = new Set(["change", "refine"]);
+
 /**
  * States of the figures: "waiting" (no connection yet), "moving", "computing", "preview",
  * "refined", "invalid", "failed".
  *
  * Events: `start` (a design was opened), `values` (they changed), `state`, `rest`, `history`,
- * `connection` with detail `{open, failures}`, and every message of the server under its type, with
+ * `asked_again` (no answer came in good time), `connection` with detail `{open, failures}`, and every message of the server under its type, with
  * detail `{header, payload}`.
  */
 export class Session extends EventTarget {
   #connection;
   #history = new History();
-  #restTimer = 0;
+  #restTimer = 0; // of a rest that is still to come, or 0
+  #patience = new Patience(() => this.#askAgain());
   #frame = 0;
   #gesture = null;
   #gestures = 0;
@@ -95,6 +100,7 @@ export class Session extends EventTarget {
     this.#setState("moving");
     this.#emit("values");
     this.#sendSoon();
+    this.#patience.end();
     clearTimeout(this.#restTimer);
     this.#restTimer = setTimeout(() => this.#rest(), REST_MS);
   }
@@ -145,9 +151,12 @@ export class Session extends EventTarget {
     this.#openBy({ type: "open_toml", text });
   }
 
-  /** Takes what the sliders say as their rest, should they not have rested yet. */
+  /**
+   * Takes what the sliders say as their rest, should they not have rested yet; also what is known to
+   * be invalid by then, or undo would go back by two steps.
+   */
   settle() {
-    if (this.state === "moving") this.#restNow();
+    if (this.#restTimer) this.#restNow();
   }
 
   /** Asks for something that belongs to the design as it is. */
@@ -169,7 +178,8 @@ export class Session extends EventTarget {
 
   /** Opens a design, and goes on with `values` of it unless they are null. */
   #openBy(message, values = null, isStep = true) {
-    clearTimeout(this.#restTimer);
+    this.#endRestTimer();
+    this.#patience.end();
     this.#opening = { message, values, isStep };
     this.revision += 1;
     this.#forget();
@@ -178,19 +188,36 @@ export class Session extends EventTarget {
   }
 
   #restNow(isStep = true) {
-    clearTimeout(this.#restTimer);
     this.#rest(isStep);
   }
 
+  #endRestTimer() {
+    clearTimeout(this.#restTimer);
+    this.#restTimer = 0;
+  }
+
   #rest(isStep = true) {
+    this.#endRestTimer();
     this.#flush();
     if (this.state === "moving") this.#setState("computing");
-    this.#connection.send({ type: "rest", revision: this.revision });
+    this.#sendRest();
+    this.#patience.begin();
     if (isStep && !same(this.#history.current?.values, this.values)) {
       this.#history.push({ start: this.start, values: this.values }, this.#gesture);
       this.#emit("history");
     }
     this.#emit("rest");
+  }
+
+  #sendRest() {
+    return this.#connection.send({ type: "rest", revision: this.revision });
+  }
+
+  /** An answer should have come by now. A studio that is at it takes no notice of a second rest. */
+  #askAgain() {
+    if (this.state !== "computing" || !this.#sendRest()) return false;
+    this.#emit("asked_again");
+    return true;
   }
 
   /** One message a frame at most: what lies between is never seen. */
@@ -215,6 +242,7 @@ export class Session extends EventTarget {
     if (OF_ONE_REVISION.has(header.type) && header.revision !== this.revision) return;
     if (header.type === "shape" && !this.#isNewShape(header)) return;
     this.#note(header);
+    this.#patience.heard(this.state === "computing");
     this.#emit(header.type, { header, payload });
   }
 
@@ -229,7 +257,7 @@ export class Session extends EventTarget {
     if (header.type === "answer") this.#noteAnswer(header);
     if (header.type !== "failed") return;
     if (header.what === "open") this.#notOpened();
-    else if (header.what === "refine" && !this.answer) this.#setState("failed");
+    else if (ENDING.has(header.what) && !this.answer) this.#setState("failed");
   }
 
   /** The design asked for cannot be opened: we go on with the one we have. */
@@ -237,7 +265,8 @@ export class Session extends EventTarget {
     if (!this.start || !this.#opening) return;
     this.#opening = null;
     this.#sendValues();
-    this.#connection.send({ type: "rest", revision: this.revision });
+    this.#sendRest();
+    this.#patience.begin();
   }
 
   #noteProblems({ problems, values, bubble_count: count }) {
@@ -269,6 +298,7 @@ export class Session extends EventTarget {
     this.values = this.opened;
     this.#forget();
     this.#setState("computing");
+    this.#patience.begin();
     for (const type of ["start", "values"]) this.#emit(type);
     this.#emit("connection", { open: true, failures: 0 });
   }
@@ -291,6 +321,7 @@ export class Session extends EventTarget {
   }
 
   #lost(detail) {
+    this.#patience.end();
     this.#emit("connection", { open: false, failures: detail.failures });
   }
 

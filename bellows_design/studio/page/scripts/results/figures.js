@@ -15,6 +15,10 @@ const BADGES = {
 
 const CURRENT = new Set(["preview", "refined"]);
 
+const ENDING = new Set(["change", "refine"]);
+
+const ASKED_AGAIN = "No answer has come yet: the studio was asked for it again.";
+
 export class Figures {
   #session;
   #shown = null; // the answer that stands in the figures
@@ -43,6 +47,7 @@ export class Figures {
     session.addEventListener("state", () => this.#state());
     session.addEventListener("working", (event) => this.#working(event.detail.header));
     session.addEventListener("failed", (event) => this.#failed(event.detail.header));
+    session.addEventListener("asked_again", () => setText(this.how, ASKED_AGAIN));
     session.addEventListener("connection", () => this.#state());
     this.#state();
   }
@@ -112,9 +117,8 @@ export class Figures {
   }
 
   #failed({ what, message }) {
-    if (what !== "refine") return;
-    if (this.#session.state === "failed") setText(this.how, message);
-    else {
+    if (this.#session.state === "failed" && ENDING.has(what)) setText(this.how, message);
+    else if (what === "refine") {
       setText(this.badge, BADGES[this.#session.state]);
       setText(this.how, `${sentence(this.#shown)} It was not refined: ${message}`);
     }
