@@ -23,12 +23,13 @@ def part(findings: Findings) -> Section:
     """The printed part with its thickness map."""
     found = findings.outcome
     made = thickness_map(found.design, found.part.mesh)
-    colours = Field(THICKNESS, "mm", made.thickness, high=made.reach, reverse=True)
+    colours = Field(THICKNESS, "mm", made.thickness, low=0.0, high=made.reach, reverse=True)
     surface = Surface("part", made.triangles, made.positions, (colours,))
     caption = (
         "The printed part. Colours are the local thickness of the material below the surface, as "
         f"the printer's rules measure it: the largest ball that touches both sides, up to "
-        f"{made.reach:g} mm. Turn it with mouse, finger or arrow keys; the section looks inside."
+        f"{made.reach:g} mm. Thin walls are bright; the scale is the same for all parts of this "
+        "printer. Turn it with mouse, finger or arrow keys; the section looks inside."
     )
     block = Space((surface,), caption, f"{found.design.name}, the printed part", THICKNESS)
     return Section("part", "The part", (block,))
