@@ -57,9 +57,10 @@ def _moving(findings: Findings, found: SurfaceFrames) -> Block:
     caption = (
         "The whole actuator, put together from the solution of its bubbles, from rest to "
         f"{pressure_text(float(found.pressures_mpa[-1]))}: move the slider, or press [ and ]. "
-        "Shapes and colours are those of the coarsest mesh, whose stresses are somewhat off: the "
-        "finest one's highest stress stands on top of the page. At sharp edges without a fillet "
-        f"they depend on the mesh and do not count. The limit is {limit:g} MPa."
+        "Shapes and colours are those of the coarsest mesh, turned to the angle of the finest; its "
+        "stresses are somewhat off: the finest one's highest stress stands on top of the page. At "
+        "sharp edges without a fillet they depend on the mesh and do not count. The limit is "
+        f"{limit:g} MPa."
     )
     last = len(found.pressures_mpa) - 1
     return Space((surface,), caption, f"{design.name} under pressure", STRESS, 520, last)
