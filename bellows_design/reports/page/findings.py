@@ -101,12 +101,6 @@ def deformed_of(found: Evaluation, frames: int = FRAMES) -> SurfaceFrames | str:
     from solver.errors import SolverError
 
     try:
-        return surface_frames(on_coarsest(found), frames)
+        return surface_frames(found, frames, finest=False)
     except (BellowsError, SolverError) as error:
         return str(error).rstrip(".")
-
-
-def on_coarsest(found: Evaluation) -> Evaluation:
-    """The evaluation as if its first mesh were its only one."""
-    computation = found.computation
-    return replace(found, computation=replace(computation, solved=computation.solved[:1]))

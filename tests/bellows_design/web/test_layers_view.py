@@ -42,6 +42,11 @@ def state(page: Page) -> dict[str, Any]:
     return found
 
 
+def frames(page: Page) -> None:
+    """Until the browser has drawn twice, so that changed sizes are known."""
+    page.evaluate("new Promise((f) => requestAnimationFrame(() => requestAnimationFrame(f)))")
+
+
 def pixels(page: Page) -> np.ndarray:
     """The canvas as it is drawn. *Shape:* `(height, width, 4)`."""
     import base64
@@ -97,6 +102,51 @@ def test_a_mark_s_button_leads_to_its_layer_and_place(browser: Browser, tmp_path
     assert (before["layer"], after["layer"]) == (0, 1)
     assert after["centre"] == [105, 54]
     assert after["pixels_per_mm"] >= before["pixels_per_mm"] == whole["pixels_per_mm"]
+
+
+@pytest.mark.parametrize("mark", [False, True])
+def test_a_view_that_was_shown_while_it_had_no_size_is_fitted_once_it_has_one(
+    browser: Browser, tmp_path: Path, mark: bool
+) -> None:
+    go = "v.goTo(v.data.marks[0])" if mark else "v.resetView()"
+    hidden = "document.querySelector('.page').hidden"
+    with shown(browser, tmp_path) as page:
+        page.evaluate(f"async () => {{ const v = await {FIRST}; {go}; }}")
+        wanted = state(page)
+        page.evaluate(f"{hidden} = true")
+        frames(page)
+        page.evaluate(f"async () => {{ const v = await {FIRST}; {go}; }}")
+        page.evaluate(f"{hidden} = false")
+        frames(page)
+        found = state(page)
+        drawn = pixels(page)[:, :, 3] > 127
+    assert found == wanted
+    assert found["scale_bar_mm"] <= 10
+    assert drawn.any()
+
+
+def test_where_the_reader_has_gone_stays_when_the_window_changes(
+    browser: Browser, tmp_path: Path
+) -> None:
+    with shown(browser, tmp_path) as page:
+        page.keyboard.press("Tab")
+        page.keyboard.press("+")
+        before = state(page)
+        page.set_viewport_size({"width": 700, "height": 900})
+        frames(page)
+        after = state(page)
+    assert (after["centre"], after["pixels_per_mm"]) == (before["centre"], before["pixels_per_mm"])
+
+
+def test_the_whole_layer_stays_whole_when_the_window_changes(
+    browser: Browser, tmp_path: Path
+) -> None:
+    with shown(browser, tmp_path) as page:
+        before = state(page)
+        page.set_viewport_size({"width": 300, "height": 900})
+        frames(page)
+        after = state(page)
+    assert after["pixels_per_mm"] < before["pixels_per_mm"]
 
 
 def test_keys_change_layer_move_and_zoom(browser: Browser, tmp_path: Path) -> None:

@@ -23,12 +23,13 @@ def part(findings: Findings) -> Section:
     """The printed part with its thickness map."""
     found = findings.outcome
     made = thickness_map(found.design, found.part.mesh)
-    colours = Field(THICKNESS, "mm", made.thickness, high=made.reach, reverse=True)
+    colours = Field(THICKNESS, "mm", made.thickness, low=0.0, high=made.reach, reverse=True)
     surface = Surface("part", made.triangles, made.positions, (colours,))
     caption = (
         "The printed part. Colours are the local thickness of the material below the surface, as "
         f"the printer's rules measure it: the largest ball that touches both sides, up to "
-        f"{made.reach:g} mm. Turn it with mouse, finger or arrow keys; the section looks inside."
+        f"{made.reach:g} mm. Thin walls are bright; the scale is the same for all parts of this "
+        "printer. Turn it with mouse, finger or arrow keys; the section looks inside."
     )
     block = Space((surface,), caption, f"{found.design.name}, the printed part", THICKNESS)
     return Section("part", "The part", (block,))
@@ -56,9 +57,10 @@ def _moving(findings: Findings, found: SurfaceFrames) -> Block:
     caption = (
         "The whole actuator, put together from the solution of its bubbles, from rest to "
         f"{pressure_text(float(found.pressures_mpa[-1]))}: move the slider, or press [ and ]. "
-        "Shapes and colours are those of the coarsest mesh, whose stresses are somewhat off: the "
-        "finest one's highest stress stands on top of the page. At sharp edges without a fillet "
-        f"they depend on the mesh and do not count. The limit is {limit:g} MPa."
+        "Shapes and colours are those of the coarsest mesh, turned to the angle of the finest; its "
+        "stresses are somewhat off: the finest one's highest stress stands on top of the page. At "
+        "sharp edges without a fillet they depend on the mesh and do not count. The limit is "
+        f"{limit:g} MPa."
     )
     last = len(found.pressures_mpa) - 1
     return Space((surface,), caption, f"{design.name} under pressure", STRESS, 520, last)

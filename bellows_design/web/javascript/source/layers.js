@@ -7,6 +7,7 @@ import { airColour, colourOf, drawAir, drawBeads, runsOf } from "./print.js";
 import { LAYERS_STYLE } from "./style.js";
 
 const MARGIN = 26;
+const CLOSE = 12; // mm across the smaller side of the picture, at a mark
 const SIGNS = { fail: "✕", warn: "!", info: "•" };
 
 /**
@@ -20,6 +21,7 @@ export class Layers extends EventTarget {
     this.host = host;
     this.options = { height: 420, label: "Layers of the print", ...options };
     this.layer = 0;
+    this.fit = null;
     this.buildPage();
     this.pointers = new Map();
     this.listen();
@@ -109,17 +111,27 @@ export class Layers extends EventTarget {
   /** See a mark closely. */
   goTo(mark) {
     this.setLayer(mark.layer);
-    this.centre = [mark.x, mark.y];
-    this.scale = Math.max(this.fitting, Math.min(this.stage.clientWidth, this.stage.clientHeight) / 12);
-    this.changedView();
+    this.keepFitting(() => {
+      this.centre = [mark.x, mark.y];
+      this.scale = Math.max(this.fitting, Math.min(this.stage.clientWidth, this.stage.clientHeight) / CLOSE);
+    });
   }
 
   /** See all of every layer. */
   resetView() {
     if (!this.data) return;
     const { low, high } = this.data;
-    this.centre = [(low[0] + high[0]) / 2, (low[1] + high[1]) / 2];
-    this.scale = this.fitting;
+    this.keepFitting(() => {
+      this.centre = [(low[0] + high[0]) / 2, (low[1] + high[1]) / 2];
+      this.scale = this.fitting;
+    });
+  }
+
+  /** Apply `fit` now, and whenever the size changes until the reader moves the view: what is not
+   *  on the screen yet has no size that a scale could be for. */
+  keepFitting(fit) {
+    this.fit = fit;
+    fit();
     this.changedView();
   }
 
@@ -138,9 +150,8 @@ export class Layers extends EventTarget {
   resize() {
     const { clientWidth: width, clientHeight: height } = this.stage;
     const ratio = Math.min(devicePixelRatio, 2);
-    const whole = !this.data || this.scale === this.shownFitting;
     [this.canvas.width, this.canvas.height] = [Math.round(width * ratio), Math.round(height * ratio)];
-    if (this.data && whole) this.resetView();
+    if (this.data && this.fit) this.keepFitting(this.fit);
     this.draw();
   }
 
@@ -154,7 +165,6 @@ export class Layers extends EventTarget {
     cancelAnimationFrame(this.pending);
     this.pending = 0;
     if (!this.data || !this.stage.clientWidth) return;
-    this.shownFitting = this.fitting;
     this.colours = this.pageColours();
     const context = this.canvas.getContext("2d");
     const ratio = this.canvas.width / this.stage.clientWidth;
@@ -232,6 +242,7 @@ export class Layers extends EventTarget {
     const change = 1 / this.scale - 1 / scale;
     this.centre = [this.centre[0] + dx * change, this.centre[1] - dy * change];
     this.scale = scale;
+    this.fit = null;
     this.changedView();
   }
 
@@ -256,6 +267,7 @@ export class Layers extends EventTarget {
   onMove(event) {
     const before = this.pointers.get(event.pointerId);
     if (!before) return;
+    this.fit = null;
     const now = [event.clientX, event.clientY];
     const other = [...this.pointers].find(([id]) => id !== event.pointerId);
     this.pointers.set(event.pointerId, now);
@@ -277,6 +289,7 @@ export class Layers extends EventTarget {
     const step = 40 / this.scale;
     const move = (x, y) => () => {
       this.centre = [this.centre[0] + x * step, this.centre[1] + y * step];
+      this.fit = null;
       this.changedView();
     };
     const action = {

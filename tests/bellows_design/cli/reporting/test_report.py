@@ -95,3 +95,22 @@ def test_without_pictures_their_absence_is_named(
     path = tmp_path / "page.html"
     status, _, err = bellows("report", "finger", "-o", str(path), "--png", str(tmp_path / "a.png"))
     assert status == 2 and "pyvista and matplotlib" in err
+
+
+@pytest.mark.slow
+def test_a_real_report_has_its_scene_and_its_pictures(
+    bellows: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Nothing is made up: a small design of a real material, blocked."""
+    monkeypatch.undo()
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    path, png, pdf = (tmp_path / f"page.{kind}" for kind in ("html", "png", "pdf"))
+    status, out, _ = bellows(
+        "report", "prototype_1", "--scene", "blocked", "--no-sensitivities", "-o", str(path),
+        "--png", str(png), "--pdf", str(pdf), "--set", "limits.leak_test=off",
+    )  # fmt: skip
+    assert status == 0 and "prototype_1 is" in out
+    html = path.read_text("utf-8")
+    assert "Scene blocked" in html and "Force in the scene blocked" in html
+    assert "There is no deformed shape" not in html
+    assert png.read_bytes().startswith(b"\x89PNG") and pdf.read_bytes().startswith(b"%PDF-")
