@@ -19,14 +19,19 @@ import pytest
 from generators.names import PACKAGES, public_names
 
 SLOW = {
+    "Assembly",
     "BodyEvaluation",
     "Computation",
+    "DeformedActuator",
     "Evaluation",
     "NeighbourEvaluation",
     "Neighbourhood",
     "Outcome",
     "Pool",
     "check",
+    "deformed_actuator",
+    "deformed_body",
+    "deformed_surface",
     "evaluate",
     "evaluation_of",
     "examine",
@@ -35,6 +40,7 @@ SLOW = {
     "run",
     "sensitivities of bellows_design",
     "started",
+    "surface_frames",
     "write_vtu of bellows_design.evaluation",
 }
 """Names whose examples evaluate or check a whole design."""
