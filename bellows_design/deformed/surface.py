@@ -35,8 +35,6 @@ class SurfaceFrames:
             *Shape:* (k,).
 
     Examples:
-        A triangle that a pressure of 0.1 MPa turns by a right angle about the y axis:
-
         >>> import numpy as np
         >>> from bellows_design.deformed import SurfaceFrames
         >>> flat = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]])  # mm
