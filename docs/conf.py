@@ -34,6 +34,7 @@ extensions = [
 ]
 source_suffix = {".md": "markdown", ".rst": "restructuredtext"}
 exclude_patterns = ["generators"]
+smartquotes_action = "qe"  # quotes and ellipses: options keep their two hyphens
 default_role = "code"  # docstrings have names between single or double backticks
 
 myst_heading_anchors = 4

@@ -151,14 +151,26 @@ def path_readings(computation: Computation) -> tuple[Reading, ...]:
 
 
 def curve_readings(computation: Computation) -> tuple[Reading, ...]:
-    """Readings at the pressures asked for, on the finest mesh."""
-    asked = computation.pressures
-    wanted = (
+    """Readings at the pressures asked for: on the finest mesh, where its solve stopped at them.
+
+    That on a mesh which is only a step to a finer one goes straight to the load. Where it stays the
+    finest, as the budget ends the refinement, the points before its own come from a coarser mesh.
+    """
+    finest = _asked_points(computation, computation.finest)
+    on_meshes = [_asked_points(computation, each) for each in reversed(computation.solutions)]
+    most = max(on_meshes, key=len)  # the finest of those with as many
+    before = [p for p in most if not finest or abs(p.pressure) < abs(finest[0].pressure)]
+    return _readings(computation, [*before, *finest])
+
+
+def _asked_points(computation: Computation, solution: Solution) -> list[PathPoint]:
+    """The points of a solution's path that were asked for and that the finest mesh reached."""
+    asked, end = computation.pressures, abs(computation.finest.pressure) * (1 + 1e-9)
+    return [
         point
-        for point in computation.finest.path
-        if np.isclose(point.pressure, asked, atol=1e-12).any()
-    )
-    return _readings(computation, wanted)
+        for point in solution.path
+        if abs(point.pressure) <= end and np.isclose(point.pressure, asked, atol=1e-12).any()
+    ]
 
 
 def added_by_ends(computation: Computation, point: PathPoint) -> tuple[float, float]:

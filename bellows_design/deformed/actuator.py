@@ -46,6 +46,16 @@ class DeformedActuator:
             ``docs/accuracy.md``.
 
             *Shape:* (n,).
+
+    Examples:
+        >>> from bellows_design import evaluate, load_design
+        >>> from bellows_design.deformed import DeformedActuator, deformed_actuator
+        >>> body = deformed_actuator(evaluate(load_design("prototype_1")))
+        >>> print(isinstance(body, DeformedActuator), sorted(body.mesh.surfaces))
+        True ['cavity', 'outside', 'root', 'tip']
+        >>> root = body.mesh.surface_nodes("root")
+        >>> print(abs(body.displacement[root]).max() < 1e-9)  # mm: clamped
+        True
     """
 
     mesh: Mesh
@@ -66,14 +76,32 @@ def deformed_actuator(found: Found) -> DeformedActuator:
         neighbours stand for the ends (``FREE_ENDS`` in ``analysis.wall_contact``), what lies beyond
         the outermost gaps' middles is drawn out from their section, without a fingertip, and its
         stress fades out: it was not solved for.
+
+    Examples:
+        >>> from bellows_design import evaluate, load_design
+        >>> from bellows_design.deformed import deformed_actuator
+        >>> found = evaluate(load_design("prototype_1"))
+        >>> body = deformed_actuator(found)
+        >>> print(body.pressure_mpa == found.pressure_mpa, body.displacement.shape[1])
+        True 3
     """
     return Assembly.of(anchor_of(found)).actuator(found)
 
 
 def deformed_surface(found: Found) -> SurfaceFrames:
-    """Its surface at rest and at the pressure that was reached.
+    """Its surface at rest and at the pressure that was reached, in mm and MPa.
 
     Who asks again and again, for neighbours of one evaluation, keeps an ``Assembly``.
+
+    Args:
+        found: An evaluation, or one of a neighbour.
+
+    Examples:
+        >>> from bellows_design import evaluate, load_design
+        >>> from bellows_design.deformed import deformed_surface
+        >>> frames = deformed_surface(evaluate(load_design("prototype_1")))
+        >>> print(len(frames.positions), frames.pressures_mpa)
+        2 [0.  0.1]
     """
     return Assembly.of(anchor_of(found)).surface(found)
 
@@ -88,6 +116,17 @@ class Assembly:
     Attributes:
         anchor: The ordinary evaluation that meshes and ends are of.
         whole: Which nodes of the solved bodies make up the actuator.
+
+    Examples:
+        >>> from bellows_design import evaluate, load_design, varied
+        >>> from bellows_design.deformed import Assembly
+        >>> design = load_design("prototype_1")
+        >>> first = evaluate(design)
+        >>> assembly = Assembly.of(first)
+        >>> wider = evaluate(varied(design, {"bubble_width": 20.2}), near=first)
+        >>> rest = [assembly.surface(each).positions[0] for each in (first, wider)]
+        >>> print(rest[0].shape == rest[1].shape, f"{(rest[1] - rest[0]).max():.2f} mm")
+        True 0.10 mm
     """
 
     anchor: Evaluation

@@ -28,7 +28,23 @@ def deformed_body(found: BodyEvaluation) -> DeformedActuator:
     Returns:
         The body with its images at the planes of symmetry, whose nodes they share; of several
         planes normal to one axis at the first only. Its surfaces have their names, without those
-        of symmetry; regions of parts are not kept.
+        of symmetry; regions of parts are not kept. Lengths are in mm, stresses in MPa.
+
+    Examples:
+        >>> import cadquery as cq
+        >>> from bellows_design import OwnBody, evaluate
+        >>> from bellows_design.deformed import deformed_body
+        >>> hollow = cq.Solid.makeBox(30, 3, 4, cq.Vector(5, 1, 4))
+        >>> bar = cq.Solid.makeBox(40, 5, 10).cut(hollow)
+        >>> found = evaluate(OwnBody(
+        ...     name="bar",
+        ...     parts=[{"name": "bar", "solid": bar, "material": "ecoflex_00_30"}],
+        ...     surfaces={"root": "<X", "tip": ">X", "cavity": {"inner": True}},
+        ...     load={"pressure": 0.002},  # MPa
+        ... ))
+        >>> body = deformed_body(found)
+        >>> print(len(body.displacement) == len(body.mesh.nodes), body.von_mises.max() > 0)
+        True True
     """
     from solver import nodal_von_mises
     from solver.results.sharp_edges import trusted_nodes

@@ -40,6 +40,16 @@ def surface_frames(found: Evaluation, count: int = 11, finest: bool = True) -> S
 
     Raises:
         DesignError: A count that is not between 2 and 101.
+
+    Examples:
+        >>> from bellows_design import evaluate, load_design
+        >>> from bellows_design.deformed import surface_frames
+        >>> found = evaluate(load_design("prototype_1"))
+        >>> frames = surface_frames(found, count=3, finest=False)
+        >>> print(frames.pressures_mpa)  # MPa
+        [0.   0.05 0.1 ]
+        >>> print(abs(frames.angles_deg[-1] - found.bending_angle_deg) < 0.01)
+        True
     """
     if not 2 <= count <= MOST_FRAMES:
         raise DesignError(f"count = {count} frames must lie between 2 and {MOST_FRAMES}.")

@@ -33,6 +33,21 @@ class SurfaceFrames:
         angles_deg: bending angles of the frames, past 360 where the tip curls on.
 
             *Shape:* (k,).
+
+    Examples:
+        >>> import numpy as np
+        >>> from bellows_design.deformed import SurfaceFrames
+        >>> flat = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]])  # mm
+        >>> upright = np.array([[0.0, 0, 0], [0, 0, 1], [0, 1, 0]])
+        >>> frames = SurfaceFrames(
+        ...     triangles=np.array([[0, 1, 2]]),
+        ...     positions=np.stack([flat, upright]),
+        ...     von_mises=np.zeros((2, 3)),
+        ...     pressures_mpa=np.array([0.0, 0.1]),
+        ...     angles_deg=np.array([0.0, 90.0]),
+        ... )
+        >>> print(frames.positions.shape)
+        (2, 3, 3)
     """
 
     triangles: Integers

@@ -208,7 +208,8 @@ def _check_fillets(p: BellowsParameters) -> None:
         extent = ("length", "width", "height")[size.index(min(size))]
         require(
             radius <= half + 1e-9,
-            f"{name} = {radius:g} mm exceeds {half:.4g} mm, half of the {what}'s {extent}",
+            f"{name} = {radius:g} mm exceeds {half:.4g} mm, half of the {what}'s {extent}; "
+            f"set {name}={_rounded_down(half):g} or less",
         )
     corner = corner_thickness(p.bubble_fillet, p.chamber_fillet, p.bubble_thickness)
     require(
@@ -216,6 +217,11 @@ def _check_fillets(p: BellowsParameters) -> None:
         f"outer_fillet = {p.outer_fillet:g} mm leaves {corner:.3g} mm of wall at the bubble's "
         f"corners; at least half of bubble_thickness = {p.bubble_thickness:g} mm is needed",
     )
+
+
+def _rounded_down(length: float) -> float:
+    """To a thousandth, mm."""
+    return math.floor(1000 * length + 1e-6) / 1000
 
 
 def corner_thickness(outer_radius: float, inner_radius: float, wall: float) -> float:

@@ -14,6 +14,9 @@ KINDS: tuple[type, ...] = (Design, Evaluation)
 def load_ipython_extension(shell: Any) -> None:
     """Show every design and evaluation by its preview, in this notebook.
 
+    Args:
+        shell: IPython's, which calls this for ``%load_ext bellows_design.plugin``.
+
     Examples:
         >>> from types import SimpleNamespace
         >>> from bellows_design.plugin import load_ipython_extension
@@ -32,6 +35,9 @@ def load_ipython_extension(shell: Any) -> None:
 
 def unload_ipython_extension(shell: Any) -> None:
     """Show them as text again.
+
+    Args:
+        shell: IPython's, which calls this for ``%unload_ext bellows_design.plugin``.
 
     Examples:
         >>> from types import SimpleNamespace

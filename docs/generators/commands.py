@@ -32,7 +32,8 @@ def commands() -> Iterator[tuple[str, Any]]:
 
 
 def _within(group: Any, name: str) -> Iterator[tuple[str, Any]]:
-    for key, command in group.commands.items():
+    for key in group.list_commands(None):
+        command = group.commands[key]
         if getattr(command, "hidden", False):
             continue
         if hasattr(command, "commands"):

@@ -25,7 +25,8 @@ MERMAID = re.compile(r"^```mermaid$", re.MULTILINE)
 def within_the_site(text: str, folder: Path, page_folder: Path) -> str:
     """``text`` of a page in ``folder`` as a page of the site in ``page_folder``.
 
-    A link to a file of the source code downloads it; one to a folder is text. Diagrams in
+    A link to a file of the source code downloads it; one to a folder, or to a page that the site
+    does not have, is text. Diagrams in
     Mermaid's notation, which only a script from elsewhere could draw, are shown as written.
     """
     pieces, at = [], 0
@@ -55,9 +56,15 @@ def _link(label: str, target: str, folder: Path, page_folder: Path) -> str:
     if "://" in target or target.startswith(("mailto:", "/")) or not path:
         return f"[{label}]({target})"
     found = (folder / path).resolve()
-    if found.is_dir():
+    if found.is_dir() or _is_page_elsewhere(found):
         return label
     if found == README:  # in its place the site has a page with other headings
         return f"[{label}]({os.path.relpath(SITE / 'index.md', page_folder)})"
     place = COPIES.get(found, found)
     return f"[{label}]({os.path.relpath(place, page_folder)}{hash_sign}{anchor})"
+
+
+def _is_page_elsewhere(found: Path) -> bool:
+    """Whether this is a page that only the forge shows."""
+    known = {README, *COPIES}
+    return found.suffix == ".md" and found not in known and not found.is_relative_to(SITE)

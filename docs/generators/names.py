@@ -10,6 +10,7 @@ from types import ModuleType
 PACKAGES = {
     "bellows_design": "The whole pipeline",
     "bellows_design.evaluation": "Angles and stresses",
+    "bellows_design.deformed": "The whole actuator under pressure",
     "bellows_design.design": "Designs",
     "bellows_design.materials": "Materials",
     "bellows_design.geometry": "Solids",

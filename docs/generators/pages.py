@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from generators import commands, fields, gallery, names
+from generators import commands, fields, gallery, names, schemas
 from generators.links import COPIES, ROOT, within_the_site
 
 
@@ -19,6 +19,7 @@ def write_pages(folder: Path) -> None:
 def generated(folder: Path) -> dict[str, str]:
     """File name -> text of every generated page."""
     pages = {"commands.md": commands.page(), "gallery.md": gallery.page()}
+    pages["schemas.md"] = schemas.page()
     pages |= {f"{name}.md": text for name, text in fields.pages()}
     pages |= {f"{name}.rst": text for name, text in names.pages()}
     return pages | _copied(folder)

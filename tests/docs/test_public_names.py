@@ -19,25 +19,37 @@ import pytest
 from generators.names import PACKAGES, public_names
 
 SLOW = {
+    "Assembly",
     "BodyEvaluation",
     "Computation",
+    "DeformedActuator",
     "Evaluation",
     "NeighbourEvaluation",
     "Neighbourhood",
     "Outcome",
+    "Part",
     "Pool",
     "check",
+    "deformed_actuator",
+    "deformed_body",
+    "deformed_surface",
     "evaluate",
     "evaluation_of",
     "examine",
     "force_curve",
+    "full_body",
+    "half_body",
+    "plate",
+    "preview",
     "refined",
     "run",
     "sensitivities of bellows_design",
     "started",
+    "surface_frames",
+    "write_part",
     "write_vtu of bellows_design.evaluation",
 }
-"""Names whose examples evaluate or check a whole design."""
+"""Names whose examples evaluate or check a whole design, or build one at length."""
 
 UNITS = re.compile(
     r"\bmm\b|\bmm[³^²]|\bN\b|\bMPa\b|\bdegrees?\b|°|\bpercent\b|%|\bs\b|\bGiB\b|g/cm³|\brad\b"

@@ -14,7 +14,7 @@ from typer.core import TyperGroup
 
 from bellows_design.cli.layout.asked import remember
 from bellows_design.cli.layout.mistakes import sentence_on
-from bellows_design.cli.layout.panels import PANELS
+from bellows_design.cli.layout.panels import ORDER_OF_USE, PANELS
 from bellows_design.cli.layout.said import print_error
 
 ABORTED = 130
@@ -29,13 +29,15 @@ class Commands(TyperGroup):
             _say_nothing_of_the_values_of_flags(command)
 
     def list_commands(self, ctx: Any) -> list[str]:
-        """Names by panel; within a panel as they were registered."""
-        known = {panel: number for number, panel in enumerate(PANELS)}
-        names = super().list_commands(ctx)
-        return sorted(
-            names,
-            key=lambda name: known.get(getattr(self.commands[name], "rich_help_panel", ""), -1),
-        )
+        """Names by panel; within a panel in the order of use."""
+        panels = {panel: number for number, panel in enumerate(PANELS)}
+        places = {name: number for number, name in enumerate(ORDER_OF_USE)}
+
+        def place(name: str) -> tuple[int, int]:
+            panel = getattr(self.commands[name], "rich_help_panel", "")
+            return panels.get(panel, -1), places.get(name, len(places))
+
+        return sorted(super().list_commands(ctx), key=place)
 
     def resolve_command(self, ctx: Any, args: list[str]) -> Any:
         """The command that ``args`` begin with, which is remembered."""

@@ -21,6 +21,17 @@ HOUSEKEEPING = "Housekeeping"
 PANELS = (START, PRINT, COMPUTE, STUDY, SHARE, TOOLS, HOUSEKEEPING)
 """Of commands, in the order in which the help shows them."""
 
+ORDER_OF_USE = (
+    "list", "init",
+    "design", "check", "run", "verify", "plate",
+    "evaluate", "force", "compare", "fit",
+    "optimize", "study", "benchmark",
+    "report", "studio",
+    "mesh",
+    "doctor", "cache", "schema",
+)  # fmt: skip
+"""Commands in the order in which a panel shows them; any other follows as it was registered."""
+
 DESIGN = "The design"
 READING = "How the file is read"
 MATERIAL = "The material"

@@ -87,6 +87,15 @@ def test_curve_ascends_to_the_evaluations_own_values(
     assert high == own_reading(evaluation)
 
 
+def test_curve_is_whole_where_the_budget_ends_the_refinement_half_way(cell: Evaluation) -> None:
+    """The mesh between goes straight to the load: what lies before is of the coarsest one."""
+    fewer = evaluation_of(replace(cell.computation, solved=cell.computation.solved[:2]))
+    coarsest = evaluation_of(replace(cell.computation, solved=cell.computation.solved[:1]))
+    low, high = fewer.curve
+    assert low == coarsest.curve[0] and high == own_reading(fewer)
+    assert low.max_von_mises_mpa < high.max_von_mises_mpa != coarsest.curve[1].max_von_mises_mpa
+
+
 def test_path_ascends_from_zero_to_the_evaluations_own_values(cell: Evaluation) -> None:
     path = cell.to_dict()["path"]
     for key in ("pressure_mpa", "bending_angle_deg", "max_von_mises_mpa", "cavity_volume_mm3"):

@@ -111,7 +111,10 @@ def test_the_corner_wall_is_the_distance_of_two_spheres_along_the_diagonal() -> 
         ({"inner_fillet": 0.04}, "inner_fillet = 0.04 mm is no radius a printer resolves"),
         ({"outer_fillet": 0.01}, "outer_fillet = 0.01 mm is no radius a printer resolves"),
         ({"inner_fillet": 1.1}, "inner_fillet = 1.1 mm exceeds 1 mm, half of the chamber's length"),
-        ({"outer_fillet": 2.6}, "outer_fillet = 2.6 mm exceeds 2.5 mm, half of the bubble's"),
+        (
+            {"outer_fillet": 2.6},
+            "2.5 mm, half of the bubble's length; set outer_fillet=2.5 or less",
+        ),
         ({"bubble_thickness": 1.2, "inner_fillet": 0, "outer_fillet": 2.2}, "the bubble's corners"),
         ({"length": 10, "offset": 8}, "length = 10 mm leaves no room for a bubble of 5 mm"),
         ({"number_of_bubbles": 8}, "number_of_bubbles = 8 makes a train of 50.5 mm"),

@@ -10,7 +10,7 @@ import pytest
 from typer.main import get_command
 
 from bellows_design.cli.commands import app
-from bellows_design.cli.layout.panels import OPTION_PANELS, PANELS
+from bellows_design.cli.layout.panels import OPTION_PANELS, ORDER_OF_USE, PANELS
 
 Bellows = Callable[..., tuple[int, str, str]]
 GROUP: Any = get_command(app)
@@ -58,6 +58,15 @@ def test_the_help_names_commands_by_task(bellows: Bellows, monkeypatch: pytest.M
     assert status == 0 and len(titles) >= 5 and titles == sorted(titles)
     assert "─ Commands ─" not in out and "<bool>  Print the version" not in out
     assert max(map(len, out.splitlines())) <= 80
+
+
+def test_within_a_panel_commands_stand_in_the_order_of_use() -> None:
+    shown = GROUP.list_commands(None)
+    assert sorted(shown) == sorted(ORDER_OF_USE)
+    for panel in PANELS:
+        inside = [name for name in shown if GROUP.commands[name].rich_help_panel == panel]
+        assert inside == [name for name in ORDER_OF_USE if name in inside]
+    assert shown.index("design") < shown.index("plate") < shown.index("evaluate")
 
 
 @pytest.mark.parametrize(
