@@ -26,7 +26,7 @@ class Commands(TyperGroup):
     def __init__(self, **settings: Any) -> None:
         super().__init__(**settings)
         for command in (self, *self.commands.values()):
-            _say_nothing_of_the_values_of_flags(command)
+            _say_nothing_of_the_values_of(command.params)
 
     def list_commands(self, ctx: Any) -> list[str]:
         """Names by panel; within a panel in the order of use."""
@@ -39,10 +39,18 @@ class Commands(TyperGroup):
 
         return sorted(super().list_commands(ctx), key=place)
 
+    def get_params(self, ctx: Any) -> list[Any]:
+        """The parameters with ``--help``, which is a flag like others."""
+        found = list(super().get_params(ctx))
+        _say_nothing_of_the_values_of(found)
+        return found
+
     def resolve_command(self, ctx: Any, args: list[str]) -> Any:
         """The command that ``args`` begin with, which is remembered."""
         self.suggest_commands = False  # our sentence does
         found = super().resolve_command(ctx, args)
+        if found[1] is not None:
+            _say_nothing_of_the_values_of(found[1].get_params(ctx))
         above = "" if ctx.parent is None else f"{ctx.info_name} "
         remember(f"{above}{found[0]}")
         return found
@@ -77,7 +85,8 @@ class Commands(TyperGroup):
         return status
 
 
-def _say_nothing_of_the_values_of_flags(command: Any) -> None:
-    for parameter in command.params:
+def _say_nothing_of_the_values_of(parameters: Sequence[Any]) -> None:
+    """Flags have none."""
+    for parameter in parameters:
         if getattr(parameter, "is_flag", False) and parameter.metavar is None:
             parameter.metavar = ""

@@ -56,8 +56,14 @@ def test_the_help_names_commands_by_task(bellows: Bellows, monkeypatch: pytest.M
     status, out, _ = bellows("--help")
     titles = [out.find(f"─ {panel} ─") for panel in PANELS if f"─ {panel} ─" in out]
     assert status == 0 and len(titles) >= 5 and titles == sorted(titles)
-    assert "─ Commands ─" not in out and "<bool>  Print the version" not in out
+    assert "─ Commands ─" not in out and "<bool>" not in out
     assert max(map(len, out.splitlines())) <= 80
+
+
+@pytest.mark.parametrize("command", ["check", "study sweep"])
+def test_the_help_of_a_command_gives_flags_no_value(bellows: Bellows, command: str) -> None:
+    status, out, _ = bellows(*command.split(), "--help")
+    assert status == 0 and "--json" in out and "<bool>" not in out
 
 
 def test_within_a_panel_commands_stand_in_the_order_of_use() -> None:
