@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 from pretended_studio import PretendedStudio, angle_of
+from studio_in_browser import moved
 
 from bellows_design.design.overrides import with_overrides
 from bellows_design.design.shipped import load_design
@@ -88,6 +89,21 @@ def test_undo_in_the_moment_of_the_explanation_goes_back_by_one_step(page: Any) 
     for _ in range(5):
         page.evaluate(UNDONE_AT_ONCE)
         _expect(page, "bubble_height=22")
+
+
+def test_a_slow_drag_that_rests_in_between_is_one_step_to_undo(
+    page: Any, studio: PretendedStudio
+) -> None:
+    page.evaluate(
+        """() => { const draw = window.requestAnimationFrame;
+            window.requestAnimationFrame = (done) => setTimeout(() => draw(done), 200); }"""
+    )
+    studio.received.clear()
+    moved(page, "bubble_height", [20.5, 21.0, 21.5], 30)
+    assert len({each["revision"] for each in studio.received if each["type"] == "rest"}) == 3
+    _expect(page, "bubble_height=21.5")
+    page.locator("#undo").click()
+    _expect(page)
 
 
 @pytest.mark.slow
