@@ -53,6 +53,14 @@ def test_a_rendering_has_its_size_and_shows_the_surface_in_the_middle() -> None:
     assert drawn.mean(axis=0) == pytest.approx([60, 80], abs=12)
 
 
+def test_drawing_without_a_screen_prints_nothing(
+    capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.delenv("DISPLAY", raising=False)
+    rendered(raised(), LOOK)
+    assert capfd.readouterr() == ("", "")
+
+
 def test_a_cut_takes_the_half_in_front_away() -> None:
     """From the front, the inner side of the far wall is seen, whose values are other ones."""
     far = np.where(block(20, 10, 10)[0][:, 1] > 5, 1.0, 0.0)
