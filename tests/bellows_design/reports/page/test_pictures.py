@@ -174,3 +174,16 @@ def test_a_machine_that_cannot_draw_is_told_so(monkeypatch: pytest.MonkeyPatch) 
     monkeypatch.setattr(pyvista, "Plotter", fails)
     with pytest.raises(DesignError, match=r"PyVista cannot draw .*: bad X server connection\.$"):
         rendered(raised(), LOOK)
+
+
+def test_marks_are_written_towards_the_middle_of_their_chart() -> None:
+    from matplotlib.figure import Figure
+
+    from bellows_design.reports.page.curves.chart import Chart
+    from bellows_design.reports.page.pictures.drawn import draw
+    from bellows_design.web.charts import Line, Mark
+
+    x = np.array([0.0, 1.0, 2.0])
+    axes = Figure().subplots()
+    draw(axes, Chart("", "", "", (Line("line", x, x),), marks=(Mark(0, 0, "a"), Mark(2, 2, "b"))))
+    assert {text.get_text(): text.get_ha() for text in axes.texts} == {"a": "left", "b": "right"}
