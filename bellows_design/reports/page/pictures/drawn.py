@@ -46,11 +46,13 @@ def _chart(axes: Axes, chart: Chart) -> None:
     for low, high in chart.shaded:
         axes.axvspan(low, high, color="#e9edf1", zorder=0)
     _limits(axes, chart)
+    middle = sum(axes.get_xlim()) / 2
     for mark in chart.marks:
+        left = mark.x < middle
         axes.plot([mark.x], [mark.y], "o", color=SERIES[0], markeredgecolor=INK)
         axes.annotate(
-            mark.text, (mark.x, mark.y), (-6, 7), textcoords="offset points", ha="right",
-            fontsize=8, parse_math=False,
+            mark.text, (mark.x, mark.y), (7, -9) if left else (-6, 7), textcoords="offset points",
+            ha="left" if left else "right", fontsize=8, parse_math=False,
         )  # fmt: skip
     axes.set_xlabel(chart.x_label, fontsize=8)
     axes.set_ylabel(chart.y_label, fontsize=8)

@@ -33,6 +33,7 @@ def rendered(surface: Surface, look: Look) -> NDArray[np.uint8]:
     """
     import pyvista
 
+    _leave_streams_alone()
     try:
         plotter: Any = pyvista.Plotter(off_screen=True, window_size=list(look.size))
         plotter.set_background("white")
@@ -45,6 +46,13 @@ def rendered(surface: Surface, look: Look) -> NDArray[np.uint8]:
     except Exception as error:  # VTK has no class of its own for this
         raise DesignError(f"PyVista cannot draw on this machine: {error}.") from error
     return np.asarray(pixels)
+
+
+def _leave_streams_alone() -> None:
+    """Without a screen VTK warns of it, and then draws without one; what fails is raised anyway."""
+    from vtkmodules.vtkCommonCore import vtkLogger
+
+    vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
 
 
 def _mesh(surface: Surface, look: Look) -> Any:

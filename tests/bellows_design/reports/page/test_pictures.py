@@ -53,6 +53,14 @@ def test_a_rendering_has_its_size_and_shows_the_surface_in_the_middle() -> None:
     assert drawn.mean(axis=0) == pytest.approx([60, 80], abs=12)
 
 
+def test_drawing_without_a_screen_prints_nothing(
+    capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.delenv("DISPLAY", raising=False)
+    rendered(raised(), LOOK)
+    assert capfd.readouterr() == ("", "")
+
+
 def test_a_cut_takes_the_half_in_front_away() -> None:
     """From the front, the inner side of the far wall is seen, whose values are other ones."""
     far = np.where(block(20, 10, 10)[0][:, 1] > 5, 1.0, 0.0)
@@ -166,3 +174,16 @@ def test_a_machine_that_cannot_draw_is_told_so(monkeypatch: pytest.MonkeyPatch) 
     monkeypatch.setattr(pyvista, "Plotter", fails)
     with pytest.raises(DesignError, match=r"PyVista cannot draw .*: bad X server connection\.$"):
         rendered(raised(), LOOK)
+
+
+def test_marks_are_written_towards_the_middle_of_their_chart() -> None:
+    from matplotlib.figure import Figure
+
+    from bellows_design.reports.page.curves.chart import Chart
+    from bellows_design.reports.page.pictures.drawn import draw
+    from bellows_design.web.charts import Line, Mark
+
+    x = np.array([0.0, 1.0, 2.0])
+    axes = Figure().subplots()
+    draw(axes, Chart("", "", "", (Line("line", x, x),), marks=(Mark(0, 0, "a"), Mark(2, 2, "b"))))
+    assert {text.get_text(): text.get_ha() for text in axes.texts} == {"a": "left", "b": "right"}
