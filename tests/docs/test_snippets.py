@@ -83,7 +83,18 @@ def assert_body(table: dict[str, Any], folder: Path) -> None:
 
 @pytest.mark.parametrize("snippet", named(snippets("sh")))
 def test_commands_are_understood(snippet: Snippet) -> None:
-    others = {"python", "python3", "apt-get", "pip", "pytest", "dask", "sphinx-build", "git", "cd"}
+    others = {
+        "python",
+        "python3",
+        "apt-get",
+        "cq-cli",
+        "pip",
+        "pytest",
+        "dask",
+        "sphinx-build",
+        "git",
+        "cd",
+    }
     for words in snippet.commands():
         program, *arguments = words
         name = Path(program).name
@@ -136,6 +147,6 @@ def test_the_quick_commands_of_the_documents_run(
     assert len(quick) >= 3
     for words in sorted(quick):
         if words[0] == "init":
-            Path(words[-1]).unlink(missing_ok=True)
+            Path(words[2]).unlink(missing_ok=True)  # KIND FILE, options behind it
         done = CliRunner().invoke(app, words)
         assert done.exit_code == 0, done.output
