@@ -34,6 +34,16 @@ def own_cache(
     return folder
 
 
+@pytest.fixture(autouse=True)
+def _no_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Output is as wide and as colourful as where a pipe reads it, wherever the tests run.
+
+    The worker processes of pytest-xdist inherit COLUMNS and LINES, which the readline library sets.
+    """
+    for name in ("COLUMNS", "LINES", "NO_COLOR", "FORCE_COLOR", "CLICOLOR", "CLICOLOR_FORCE"):
+        monkeypatch.delenv(name, raising=False)
+
+
 @cache
 def _no_slicer() -> str:
     """Why no slicer can be run here; empty if one can."""

@@ -5,10 +5,10 @@ from __future__ import annotations
 import re
 from html import unescape
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 import pytest
+from IPython.core.interactiveshell import InteractiveShell
 
 from bellows_design.analysis.evaluate import evaluate
 from bellows_design.analysis.evaluation import Evaluation
@@ -17,10 +17,8 @@ from bellows_design.design.overrides import with_overrides
 from bellows_design.design.shipped import load_design
 from bellows_design.plugin import (
     Preview,
-    load_ipython_extension,
     plate,
     preview,
-    unload_ipython_extension,
 )
 
 SETTINGS = ["length=11.5", "offset=3", "number_of_bubbles=1"]
@@ -84,34 +82,12 @@ def test_the_page_can_be_saved(design: Design, tmp_path: Path) -> None:
 
 
 def test_the_extension_shows_designs_and_evaluations_by_themselves(design: Design) -> None:
-    """As ``%load_ext`` does it, with IPython's own formatter where it is installed."""
-    formatter = _formatter()
-    shell: Any = SimpleNamespace(
-        display_formatter=SimpleNamespace(formatters={"text/html": formatter})
-    )
-    assert formatter(design) is None
-    load_ipython_extension(shell)
+    shell = InteractiveShell()
+    formatter = shell.display_formatter.formatters["text/html"]
+    shell.run_line_magic("load_ext", "bellows_design.plugin")
     assert formatter(design) == preview(design)._repr_html_()
-    unload_ipython_extension(shell)
+    shell.run_line_magic("unload_ext", "bellows_design.plugin")
     assert formatter(design) is None
-
-
-def _formatter() -> Any:
-    try:
-        from IPython.core.formatters import HTMLFormatter
-    except ImportError:
-        return _Formatter()
-    return HTMLFormatter()
-
-
-class _Formatter(dict[type, Any]):
-    """What of IPython's formatter an extension uses: functions by types."""
-
-    for_type = dict.__setitem__
-
-    def __call__(self, shown: object) -> str | None:
-        function = self.get(type(shown))
-        return None if function is None else function(shown)
 
 
 @pytest.mark.browser
