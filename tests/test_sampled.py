@@ -7,6 +7,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 SUPPORT = Path(__file__).parent / "support"
 
 
@@ -31,6 +33,7 @@ def _files(lines: list[str]) -> list[str]:
     return [line.partition("::")[0] for line in lines]
 
 
+@pytest.mark.thorough
 def test_the_order_of_files_is_the_seeds_and_their_tests_stay_together(tmp_path: Path) -> None:
     orders = {seed: _files(_ran(tmp_path, "--sample-seed", seed)) for seed in ("a", "b", "c")}
     assert orders["a"] == _files(_ran(tmp_path, "--sample-seed", "a"))

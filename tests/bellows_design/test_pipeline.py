@@ -52,6 +52,7 @@ def test_a_short_finger_is_approved_and_leaves_whole(tmp_path: Path) -> None:
     assert manifest["evaluation"]["max_von_mises_mpa"] < 4
 
 
+@pytest.mark.thorough
 def test_walls_of_no_whole_lines_are_refused_and_leave_nothing(tmp_path: Path) -> None:
     design = with_overrides(load_design("prototype_1"), TWO_BUBBLES)
     outcome = run(design, tmp_path)

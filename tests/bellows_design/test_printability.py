@@ -31,6 +31,7 @@ def report(tolerance: float, *changes: str) -> PrintabilityReport:
     ("tolerance", "fillet"),
     [*((0.02, fillet) for fillet in (1.6, 1.75, 1.9, 2.05, 2.2)), (0.01, 1.75), (0.01, 2.05)],
 )
+@pytest.mark.thorough
 def test_no_outer_fillet_makes_the_walls_of_the_finger_taper(
     tolerance: float, fillet: float
 ) -> None:
@@ -50,6 +51,7 @@ def test_no_outer_fillet_makes_the_walls_of_the_finger_taper(
         (("port.wall=0.8", "port.depth=2"), {"minimum_lines", "minimum_layers"}),
     ],
 )
+@pytest.mark.thorough
 def test_walls_are_judged_as_declared_and_as_measured(
     changes: tuple[str, ...], failing: set[str]
 ) -> None:
@@ -69,12 +71,14 @@ STUB = ("length=20", "number_of_bubbles=1", "offset=5")
         ("mount.kind=flange", "mount.holes=4", "mount.edge_distance=1.2"),
     ],
 )
+@pytest.mark.thorough
 def test_a_finger_with_mount_and_fingertip_keeps_all_rules(mount: tuple[str, ...]) -> None:
     found = report(0.02, *STUB, *PAD, *mount)
     assert found.verdict == "pass", [rule.message for rule in found.failures]
     assert {warning.rule for warning in found.warnings} <= {"overhang"}
 
 
+@pytest.mark.thorough
 def test_the_room_of_the_cross_section_is_that_of_the_finger_and_not_of_its_mount() -> None:
     flange = ("mount.kind=flange", "mount.thickness=4")
     wide = report(0.02, *STUB, *flange)
@@ -141,6 +145,7 @@ def port_rules(built: Design, mesh: object, wall: float) -> list:  # type: ignor
 
 
 @pytest.mark.parametrize("name", ["finger", "prototype_2", "prototype_2_indent"])
+@pytest.mark.thorough
 def test_a_shipped_design_raises_no_alarm(name: str) -> None:
     """Prototype 1 has walls of 3.75 lines, which its paper says itself."""
     design = load_design(name)

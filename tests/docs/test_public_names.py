@@ -132,6 +132,7 @@ def test_every_parameter_of_a_public_function_is_described(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", parameters())
+@pytest.mark.thorough
 def test_the_example_of_every_public_name_runs(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -33,6 +33,7 @@ def test_what_does_not_run_has_a_reason() -> None:
 
 
 @pytest.mark.parametrize("snippet", named(snippets("python")))
+@pytest.mark.thorough
 def test_python_runs(snippet: Snippet, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     if snippet.reason:
         pytest.skip(snippet.reason)

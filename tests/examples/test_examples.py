@@ -47,6 +47,7 @@ def test_the_bar_converges_to_half_a_per_cent_from_the_elastica() -> None:
         assert float(third) == pytest.approx(float(theory), rel=6e-3)
 
 
+@pytest.mark.thorough
 def test_the_clamp_of_the_bar_holds_the_force_at_its_lever_arm() -> None:
     force = runpy.run_path(str(EXAMPLES / "own_body.py"))["FORCE"]
     for line in printed_by("own_body.py")[1:]:
@@ -54,6 +55,7 @@ def test_the_clamp_of_the_bar_holds_the_force_at_its_lever_arm() -> None:
         assert float(moment) == pytest.approx(force * float(arm), rel=1e-3)
 
 
+@pytest.mark.thorough
 def test_the_ball_presses_on_the_plate_a_little_more_than_hertz_says() -> None:
     """By 0.45 of the contact's radius over the ball's, as the verification of contact says.
 
@@ -83,6 +85,7 @@ def test_the_finger_of_ones_own_rubber_bends_as_far_as_its_stiffness_says() -> N
     assert warning.startswith("warning: distant parts of the actuator run through each other")
 
 
+@pytest.mark.thorough
 def test_the_pneunet_bends_more_for_each_pascal_the_more_its_chambers_balloon() -> None:
     """On a coarse mesh up to two and a half times its air; measured is 2.7° at 20 kPa."""
     body = runpy.run_path(str(EXAMPLES / "pneunet.py"))["pneunet"](size=8.0)

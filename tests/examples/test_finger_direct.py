@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import pytest
+
 from bellows_design.design import Design
 from bellows_design.pipeline import build_part, check
 from printers import load_profile
@@ -11,6 +13,7 @@ from printers import load_profile
 EXAMPLE = Path(__file__).parents[2] / "examples" / "finger_direct.toml"
 
 
+@pytest.mark.thorough
 def test_the_finger_for_thin_lines_passes_the_printer_it_is_made_for() -> None:
     design = Design.from_toml(EXAMPLE.read_text("utf-8"))
     profile = load_profile("direct_drive_sealing")

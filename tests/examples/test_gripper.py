@@ -36,6 +36,7 @@ def parts(count: int, holes: int) -> tuple[Any, cq.Solid, list[cq.Shape]]:
     return gripper, gripper.plate(), [finger.moved(cq.Location(place)) for place in gripper.places]
 
 
+@pytest.mark.thorough
 def test_the_gripping_finger_passes_the_check() -> None:
     report = check(FINGER, build_part(FINGER))
     assert report.verdict == "pass", report.failures
@@ -43,6 +44,7 @@ def test_the_gripping_finger_passes_the_check() -> None:
 
 
 @pytest.mark.parametrize(("count", "holes"), [(2, 4), (3, 2)])
+@pytest.mark.thorough
 def test_fingers_stand_on_the_plate_without_running_into_it_or_each_other(
     count: int, holes: int
 ) -> None:

@@ -42,6 +42,7 @@ def places(result: RuleResult) -> Iterator[tuple[float, ...]]:
 
 
 @pytest.mark.parametrize("name", BROKEN)
+@pytest.mark.thorough
 def test_the_fault_is_caught_by_its_rule_at_its_place(name: str) -> None:
     part, report = BROKEN[name](), report_on(name)
     caught = [r for r in report.rules if (r.rule, r.verdict) == (part.rule, part.verdict)]

@@ -19,6 +19,8 @@ from bellows_design.analysis.whole_actuator import Reading
 from bellows_design.design.design import Design
 from solver import Peak
 
+pytestmark = pytest.mark.thorough
+
 PRESSURES = (0.05, 0.02)
 CHEAP = (
     "bubble_width=14", "bubble_height=12", "tendon_width=8", "number_of_bubbles=3", "length=26",

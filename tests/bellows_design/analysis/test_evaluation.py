@@ -45,12 +45,14 @@ def test_pressure_bends_towards_the_tendon(evaluation: Evaluation) -> None:
     assert finest.displacement[tip, 2].mean() < 0
 
 
+@pytest.mark.thorough
 def test_half_the_bubbles_bend_in_proportion(evaluation: Evaluation) -> None:
     """Bubbles deform alike: one bubble bends about half as far as two, but for the ends."""
     single = evaluate(short("number_of_bubbles=1", "length=11.5"))
     assert single.bending_angle_deg == pytest.approx(evaluation.bending_angle_deg / 2, rel=0.15)
 
 
+@pytest.mark.thorough
 def test_a_finer_mesh_agrees_within_the_estimated_error(evaluation: Evaluation) -> None:
     finer = evaluation_of(refined(evaluation.computation))
     assert len(finer.meshes) == len(finer.computation.solutions) == 3
@@ -193,6 +195,7 @@ def test_accuracy_refines_until_the_estimate_keeps_it_or_the_memory_is_used_up()
     assert further.elements > fine.mesh.elements
 
 
+@pytest.mark.thorough
 def test_refinement_goes_on_while_the_state_leaves_a_question_open(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
@@ -265,6 +268,7 @@ def test_a_pressure_beyond_the_bounds_is_refused() -> None:
         short("load.pressure=100")
 
 
+@pytest.mark.thorough
 def test_an_unreachable_pressure_ends_with_the_last_good_state() -> None:
     """A wall of silicone-soft rubber bursts: the solver says how far it came, never more."""
     single = ("number_of_bubbles=1", "length=11.5")
@@ -277,6 +281,7 @@ def test_an_unreachable_pressure_ends_with_the_last_good_state() -> None:
     assert np.isfinite(result.computation.finest.displacement).all()
 
 
+@pytest.mark.thorough
 def test_a_wide_thin_bubble_is_loaded_along_stable_states_only() -> None:
     """Its walls have unstable equilibria too, with three times the stress: Newton finds them."""
     wide = with_overrides(

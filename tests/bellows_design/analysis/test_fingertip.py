@@ -25,6 +25,7 @@ def half(design: Design) -> Computation:
     return started(shortened(design), HALF, "")
 
 
+@pytest.mark.thorough
 def test_the_short_actuator_and_the_axis_of_all_models_keep_the_fingertip() -> None:
     short = shortened(PADDED)
     assert short.fingertip == PADDED.fingertip

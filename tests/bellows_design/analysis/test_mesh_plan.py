@@ -69,6 +69,7 @@ def volume(mesh: Mesh, *names: str) -> float:
 
 
 @BOTH
+@pytest.mark.thorough
 def test_the_mesh_has_the_surfaces_of_the_body(model: AnalysisModel) -> None:
     for mesh in meshes(model):
         assert set(mesh.surfaces) == {"cavity", "outside", "symmetry", *ENDS[model.name]}

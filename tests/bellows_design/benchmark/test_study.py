@@ -153,6 +153,7 @@ ONE_BUBBLE = with_overrides(
 )
 
 
+@pytest.mark.thorough
 def test_a_real_study_counts_what_each_mesh_takes(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(benchmark, "warm_up", lambda *_: None)
     monkeypatch.setattr(benchmark, "neighbour_rows", lambda *_: ())

@@ -352,6 +352,7 @@ ASSIGNMENTS = st.builds(
     max_examples=40, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
 )
 @given(assignments=st.lists(ASSIGNMENTS, min_size=1, max_size=3), name=st.text(max_size=15))
+@pytest.mark.thorough
 def test_no_input_leads_to_a_traceback_or_a_file_elsewhere(
     assignments: list[str],
     name: str,

@@ -111,6 +111,7 @@ COMMANDS = {
 @pytest.mark.parametrize(
     ("command", "number"), [*zip(COMMANDS, [*GENTLE, *[*GENTLE][:2]], strict=True)]
 )
+@pytest.mark.thorough
 def test_a_signal_while_a_file_is_written_leaves_nothing_and_says_so(
     command: str, number: signal.Signals, tmp_path: Path
 ) -> None:
@@ -121,6 +122,7 @@ def test_a_signal_while_a_file_is_written_leaves_nothing_and_says_so(
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.thorough
 def test_what_a_kill_leaves_has_no_final_name_and_the_next_run_removes_it(tmp_path: Path) -> None:
     assert struck(tmp_path, signal.SIGKILL, *COMMANDS["run"])[0] == -signal.SIGKILL
     (leftover,) = tmp_path.iterdir()

@@ -43,6 +43,7 @@ DATA = str(Path(__file__).parents[1] / "data" / "treloar_1944.csv")
         (["schema", "evalute"], "evaluate"),
     ],
 )
+@pytest.mark.thorough
 def test_what_is_near_is_named(
     arguments: list[str],
     near: str,

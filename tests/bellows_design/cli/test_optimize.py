@@ -46,6 +46,7 @@ def made_up(monkeypatch):
     return kind
 
 
+@pytest.mark.thorough
 def test_the_front_is_written_as_designs_that_are_read_back(bellows, made_up, tmp_path):
     folder = tmp_path / "out"
     status, out, _ = bellows(*SMALL, "-o", str(folder), "--json")
@@ -62,6 +63,7 @@ def test_the_front_is_written_as_designs_that_are_read_back(bellows, made_up, tm
     assert found["evaluations"]["asked"] == made_up.asked
 
 
+@pytest.mark.thorough
 def test_the_same_command_goes_on_without_asking_again(bellows, made_up, tmp_path):
     command = (*SMALL, "-o", str(tmp_path / "out"), "--json")
     first = json.loads(bellows(*command)[1])
@@ -72,6 +74,7 @@ def test_the_same_command_goes_on_without_asking_again(bellows, made_up, tmp_pat
     assert again["front"] == first["front"]
 
 
+@pytest.mark.thorough
 def test_an_optimum_that_does_not_hold_is_refused(bellows, made_up, tmp_path, monkeypatch):
     def verified(design, *_):
         reason = Reason("stress", "max_von_mises", 4.2, 4.0, "MPa", "It is above the limit.")
@@ -97,6 +100,7 @@ def test_no_design_within_the_limits_is_no_optimum(bellows, made_up, tmp_path):
     assert written == {row["design"] for row in found["front"]}
 
 
+@pytest.mark.thorough
 def test_a_verification_that_fails_refuses_and_keeps_the_front(
     bellows, made_up, tmp_path, monkeypatch
 ):
@@ -111,6 +115,7 @@ def test_a_verification_that_fails_refuses_and_keeps_the_front(
     assert (tmp_path / "out" / "finger-best.toml").exists()
 
 
+@pytest.mark.thorough
 def test_designs_that_left_the_front_are_removed_and_nothing_else(bellows, made_up, tmp_path):
     folder = tmp_path / "out"
     command = (*SMALL, "-o", str(folder), "--json")
@@ -169,6 +174,7 @@ def test_bad_options_are_one_sentence_and_nothing_is_written(bellows, tmp_path, 
     assert not folder.exists()
 
 
+@pytest.mark.thorough
 def test_a_folder_of_another_optimum_is_refused(bellows, made_up, tmp_path):
     folder = str(tmp_path / "out")
     bellows(*SMALL, "-o", folder)

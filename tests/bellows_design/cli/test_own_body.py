@@ -28,6 +28,7 @@ def file(tmp_path: Path) -> str:
     return str(path)
 
 
+@pytest.mark.thorough
 def test_a_body_is_evaluated_at_the_pressures_asked_for(
     bellows: Bellows, file: str, tmp_path: Path
 ) -> None:

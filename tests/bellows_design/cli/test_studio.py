@@ -45,6 +45,7 @@ def wait_until_gone(processes: list[psutil.Process]) -> None:
 
 
 @pytest.mark.parametrize(("number", "status"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+@pytest.mark.thorough
 def test_a_signal_ends_server_and_processes_and_leaves_nothing(
     number: int, status: int, tmp_path: Path
 ) -> None:
@@ -61,6 +62,7 @@ def test_a_signal_ends_server_and_processes_and_leaves_nothing(
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.thorough
 def test_a_server_that_is_killed_takes_its_processes_along(tmp_path: Path) -> None:
     with started(tmp_path) as (command, _):
         processes = psutil.Process(command.pid).children(recursive=True)
@@ -68,6 +70,7 @@ def test_a_server_that_is_killed_takes_its_processes_along(tmp_path: Path) -> No
         wait_until_gone(processes)
 
 
+@pytest.mark.thorough
 def test_each_address_has_a_port_and_a_token_of_its_own(tmp_path: Path) -> None:
     with started(tmp_path) as (_, one), started(tmp_path) as (_, other):
         assert one.startswith("http://127.0.0.1:") and "?token=" in one
@@ -88,6 +91,7 @@ def refused(folder: Path, *options: str) -> str:
     return done.stderr
 
 
+@pytest.mark.thorough
 def test_a_port_that_is_taken_or_none_is_refused_in_a_sentence(tmp_path: Path) -> None:
     with started(tmp_path) as (_, address):
         port = address.split(":")[2].split("/")[0]

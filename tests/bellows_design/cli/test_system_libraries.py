@@ -56,6 +56,7 @@ def test_the_readme_installs_exactly_what_the_program_asks_for() -> None:
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="only Linux has Debian's packages")
+@pytest.mark.thorough
 def test_every_library_the_wheels_link_to_has_its_package_named() -> None:
     objects = [path for wheel in WHEELS for path in shared_objects(wheel)]
     brought = {path.name for path in objects}

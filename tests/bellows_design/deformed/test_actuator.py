@@ -19,6 +19,8 @@ from solver import Mesh, cavity_volume, rotation
 from solver.mesh.faces import face_keys
 from solver.mesh.mid_nodes import jacobian_ratios
 
+pytestmark = pytest.mark.thorough
+
 Evaluated = Callable[[str], Evaluation]
 CELLS = ["three bubbles", "nine bubbles", "fingertip", "vacuum"]
 EVERY = [*CELLS, "two bubbles"]

@@ -27,6 +27,7 @@ def neighbour(evaluated: Evaluated) -> NeighbourEvaluation:
     return found
 
 
+@pytest.mark.thorough
 def test_it_has_its_own_shape_at_rest(neighbour: NeighbourEvaluation) -> None:
     body = Assembly.of(neighbour.anchor).actuator(neighbour)
     solid = full_body(neighbour.design.bellows, None).solid

@@ -23,6 +23,7 @@ EVERY = ["three bubbles", "nine bubbles", "fingertip", "vacuum", "two bubbles", 
 
 
 @pytest.mark.parametrize("name", EVERY)
+@pytest.mark.thorough
 def test_the_surface_is_watertight(name: str, evaluated: Evaluated) -> None:
     shown = deformed_surface(evaluated(name))
     assert open_edges(shown.triangles) == 0
@@ -97,6 +98,7 @@ def test_kept_states_are_not_solved_again(
 
 
 @pytest.mark.parametrize("name", ["three bubbles", "vacuum", "two bubbles", "limit"])
+@pytest.mark.thorough
 def test_a_path_is_walked_again_where_nothing_was_kept(name: str, evaluated: Evaluated) -> None:
     found = evaluated(name)
     frames, shown = surface_frames(found, 4), deformed_surface(found)

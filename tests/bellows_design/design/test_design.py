@@ -299,6 +299,7 @@ VALUES = st.recursive(
 
 
 @given(data=st.data())
+@pytest.mark.thorough
 def test_any_table_is_a_design_or_refused_in_sentences(data: st.DataObject) -> None:
     table = load_design("prototype_2_indent").model_dump()
     for _ in range(data.draw(st.integers(1, 3))):

@@ -20,6 +20,8 @@ from bellows_design.design.shipped import load_design
 from bellows_design.errors import DesignError
 from bellows_design.exchange import write_actuator
 
+pytestmark = pytest.mark.thorough
+
 Bellows = Callable[..., tuple[int, str, str]]
 
 

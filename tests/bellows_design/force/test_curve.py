@@ -334,6 +334,7 @@ def test_a_law_that_ends_while_the_support_moves_away_is_not_called_a_jump() -> 
     assert "the curve ends: the piece bears no less" in warning and "snaps" not in warning
 
 
+@pytest.mark.thorough
 def test_the_error_of_shear_is_what_shear_changes() -> None:
     """On a wall, which other points come to touch where the change is a large one."""
     law = linear_law(rotations=Uncertainty(shear=0.01))

@@ -231,6 +231,7 @@ def test_an_indent_belongs_to_the_surface_it_is_cut_into(side: Any) -> None:
 
 
 @pytest.mark.parametrize("name", DESIGNS)
+@pytest.mark.thorough
 def test_a_design_builds_one_valid_half_without_slivers(name: str) -> None:
     solid = half(name).solid
     assert solid.isValid() and solid.ShapeType() == "Solid"
@@ -269,6 +270,7 @@ def test_no_loaded_reentrant_edge_is_sharp(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", shipped_designs())
+@pytest.mark.thorough
 def test_the_printed_part_has_one_cavity_with_one_opening_which_is_the_port(name: str) -> None:
     """It is a ball to topology; a stopper in the port leaves one closed cavity."""
     _assert_one_opening(printed(name), DESIGNS[name]())
@@ -281,6 +283,7 @@ def test_every_design_of_the_paper_can_be_printed_as_one_part(name: str) -> None
 
 
 @pytest.mark.parametrize("name", shipped_designs())
+@pytest.mark.thorough
 def test_the_printed_part_is_the_analysed_body_with_a_port(name: str) -> None:
     design, part = DESIGNS[name](), printed(name).solid
     bellows, port = design.bellows, design.port
@@ -298,6 +301,7 @@ def test_the_printed_part_is_the_analysed_body_with_a_port(name: str) -> None:
 
 
 @pytest.mark.parametrize("chamber", [1.1, 1.4, 1.7])
+@pytest.mark.thorough
 def test_full_rounds_of_any_length_have_the_same_few_faces(chamber: float) -> None:
     """Half of 1.1 has no exact binary form; a strip of 1e-16 mm must not become a face."""
 
@@ -501,6 +505,7 @@ def count_built(examples: int) -> int:
     return built
 
 
+@pytest.mark.thorough
 def test_admissible_numbers_build_and_all_others_are_refused() -> None:
     assert count_built(examples=8) >= 2
 

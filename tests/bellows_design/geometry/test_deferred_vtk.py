@@ -5,6 +5,8 @@ from __future__ import annotations
 import subprocess
 import sys
 
+import pytest
+
 PROGRAM = """
 import sys
 from bellows_design.geometry.named_solids import rounded_box
@@ -19,6 +21,7 @@ print(solid.toVtkPolyData(0.1).GetNumberOfCells())
 """
 
 
+@pytest.mark.thorough
 def test_vtk_is_loaded_when_something_of_it_is_asked_for() -> None:
     run = subprocess.run(
         [sys.executable, "-c", PROGRAM], capture_output=True, text=True, check=False

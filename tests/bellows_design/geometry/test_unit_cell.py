@@ -113,6 +113,7 @@ def test_no_cell_has_slivers(name: str) -> None:
         ("tendon thickness 1.2", "none"),  # the channel shows below the chamber's floor
     ],
 )
+@pytest.mark.thorough
 def test_four_cells_are_what_one_more_bubble_adds(name: str, indent: str) -> None:
     design = DESIGNS[name]()
     groove = design.indent if indent == "own" else INDENTS[indent]

@@ -38,6 +38,7 @@ def test_one_or_two_bubbles_have_no_cell() -> None:
     assert counts_alike(design, 3) and not counts_alike(design, 2)
 
 
+@pytest.mark.thorough
 def test_each_bubble_more_turns_as_much_and_holds_as_much(coarse: Coarse) -> None:
     anchor = coarse("finger")
     found = Neighbourhood(anchor).continued(anchor.design)

@@ -88,6 +88,7 @@ def test_strain_and_place_of_ends_that_are_stressed_more_are_carried_along(
 
 
 @pytest.mark.parametrize("seed", range(2))
+@pytest.mark.thorough
 def test_a_neighbour_lies_on_the_branch_that_the_load_leads_to(
     anchor: Evaluation, session: Neighbourhood, seed: int
 ) -> None:
@@ -233,6 +234,7 @@ def test_what_has_no_start_says_why(anchor: Evaluation) -> None:
             sensitivities(evaluation)
 
 
+@pytest.mark.thorough
 def test_estimated_errors_grow_with_the_distance(
     coarse: Coarse,
 ) -> None:

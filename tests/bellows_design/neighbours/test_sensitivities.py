@@ -26,6 +26,8 @@ from bellows_design.neighbours.sensitivities import (
 from solver import Solution, SolverOptions, neighbouring, peak_von_mises
 from solver.sensitivity.gradients import gradients
 
+pytestmark = pytest.mark.thorough
+
 Coarse = Callable[[str], Evaluation]
 EXACT = SolverOptions(tolerance=1e-11, reuse=0)
 STEP = 2e-3

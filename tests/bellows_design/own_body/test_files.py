@@ -11,6 +11,7 @@ from bellows_design import DesignError
 from bellows_design.own_body import load_body, write_body
 
 
+@pytest.mark.thorough
 def test_a_written_body_is_read_as_it_was(tmp_path: Path) -> None:
     body = bar()
     write_body(body, tmp_path / "mine.toml")

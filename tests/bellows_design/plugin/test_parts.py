@@ -107,6 +107,7 @@ def test_numbers_that_make_no_bellows_reach_the_host_as_one_sentence() -> None:
     assert "tendon_width = 30 mm must not exceed bubble_width = 20 mm" in str(result.exception)
 
 
+@pytest.mark.thorough
 def test_on_its_own_the_script_writes_the_checked_mesh(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -120,6 +121,7 @@ def test_on_its_own_the_script_writes_the_checked_mesh(
     assert mesh.volume == pytest.approx(part.val().Volume(), rel=0.005)
 
 
+@pytest.mark.thorough
 def test_without_a_file_the_script_says_how_it_is_used(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(sys, "argv", [str(SCRIPT)])
     with pytest.raises(SystemExit, match="usage: "):

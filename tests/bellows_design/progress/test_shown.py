@@ -116,6 +116,7 @@ STUBBORN = "hashlib.pbkdf2_hmac('sha256', b'x', b'y', 10**9)"
 
 
 @pytest.mark.parametrize("wait", ["time.sleep(60)", f"import hashlib; {STUBBORN}"])
+@pytest.mark.thorough
 def test_an_interrupted_bar_leaves_the_terminal_as_it_was(wait: str, tmp_path: Path) -> None:
     """The cursor is shown again, and the sentence stands on a line of its own."""
     ours, theirs = pty.openpty()

@@ -126,6 +126,7 @@ def test_a_changed_module_of_ours_is_noticed(tmp_path: Path) -> None:
     assert sources_hash(tmp_path) not in (before, changed)
 
 
+@pytest.mark.thorough
 def test_the_key_is_the_same_before_and_after_an_evaluation() -> None:
     """Nothing that the solver or its libraries set when they are loaded has a part in it."""
     script = (

@@ -76,6 +76,7 @@ def test_without_a_store_nothing_is_kept(
     assert not own_cache.exists()
 
 
+@pytest.mark.thorough
 def test_an_open_question_goes_on_from_what_is_kept(
     store: Store, computed: list[int], monkeypatch: pytest.MonkeyPatch
 ) -> None:

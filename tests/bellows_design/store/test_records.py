@@ -102,6 +102,7 @@ def test_the_same_follows_from_it(store: Store, original: Evaluation, tmp_path: 
     assert len(list(evaluation_table(found))) == len(list(evaluation_table(original)))
 
 
+@pytest.mark.thorough
 def test_the_next_mesh_is_the_one_that_would_have_followed(
     store: Store, evaluation: Evaluation
 ) -> None:

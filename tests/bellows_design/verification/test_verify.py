@@ -142,6 +142,7 @@ def test_names_that_lead_out_are_not_opened(export: Path, tmp_path: Path) -> Non
 
 
 @pytest.mark.parametrize("versions", [{}, {"numpy": "0.0.1", "bellows-design": "0.0.1"}])
+@pytest.mark.thorough
 def test_another_part_with_true_hashes_is_not_the_part(
     versions: dict[str, str], export: Path, cube_part: Part
 ) -> None:

@@ -38,6 +38,8 @@ def shown(browser: Browser, folder: Path, **window: Any) -> Iterator[Page]:
 
 
 def state(page: Page) -> dict[str, Any]:
+    """What the view says that it shows, once that is drawn."""
+    frames(page)
     found: dict[str, Any] = page.evaluate(f"async () => (await {FIRST}).state()")
     return found
 

@@ -56,6 +56,7 @@ def test_a_wall_around_a_shifted_bore_tapers_from_some_shift_on(
 
 @pytest.mark.parametrize("sides", [48, 96])
 @pytest.mark.parametrize("inner", [0.5, 2.0, 8.0])
+@pytest.mark.thorough
 def test_no_fillet_makes_a_wall_of_a_corner(
     solids: SimpleNamespace, prusa: PrinterProfile, inner: float, sides: int
 ) -> None:

@@ -50,6 +50,7 @@ def can(length: float, radius: float, wall: float) -> Manifold:
         (can(9.0, 4.0, 1.2), (0.0, 0.0, 9.0), (0.0, 0.0, 1.0), 2.8),
     ],
 )
+@pytest.mark.thorough
 def test_a_round_mouth_is_found_at_its_rim(
     solid: Manifold,
     centre: tuple[float, float, float],

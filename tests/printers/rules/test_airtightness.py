@@ -133,6 +133,7 @@ def test_a_pillar_in_the_cavity_and_a_mounting_hole_leak_nothing(solids: SimpleN
     y=st.floats(2.5, 8),
     radius=st.floats(0.05, 0.6),
 )
+@pytest.mark.thorough
 def test_a_hole_in_the_roof_is_found_where_it_is(
     solids: SimpleNamespace, x: float, y: float, radius: float
 ) -> None:

@@ -79,6 +79,7 @@ def test_every_measured_rule_states_its_uncertainty_and_a_declared_one_has_none(
 
 
 @pytest.mark.parametrize("rule", ["gap_measured", "minimum_lines", "bridge"])
+@pytest.mark.thorough
 def test_a_verdict_changes_once_along_a_sweep(
     solids: SimpleNamespace, prusa: PrinterProfile, rule: str
 ) -> None:

@@ -31,6 +31,7 @@ def verdicts(report: PrintabilityReport, rule: str, unit: str) -> set[str]:
     half=st.booleans(),
     angle=st.floats(0, 360),
 )
+@pytest.mark.thorough
 def test_a_wall_of_whole_lines_passes_and_half_a_line_more_fails(
     solids: SimpleNamespace,
     prusa: PrinterProfile,

@@ -76,6 +76,7 @@ def wall_with_a_handle() -> Box:
 
 
 @pytest.mark.parametrize("seam", ["random", "rear"])
+@pytest.mark.thorough
 def test_slicing_is_reproducible_where_it_says_so(
     seam: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -71,6 +71,7 @@ def test_it_turns_with_the_body(box: Meshes) -> None:
     assert assembly.extrapolated_stress(turned, along) == pytest.approx(stress, rel=1e-9, abs=1e-9)
 
 
+@pytest.mark.thorough
 def test_the_way_of_a_slender_body_hardly_depends_on_its_load_steps(
     bellows: Meshes, ninjaflex: Ogden
 ) -> None:

@@ -274,6 +274,7 @@ def test_arc_length_follows_a_plane_that_moves(box: Meshes) -> None:
 
 
 @pytest.mark.parametrize("depth", [1e-4, 1e-8])
+@pytest.mark.thorough
 def test_a_block_between_plates_is_lost_where_one_with_led_ends_is(
     box: Meshes, depth: float
 ) -> None:

@@ -104,6 +104,7 @@ def rod_over_a_block(radius: float, kind: str, motion: Callable[[float], Array] 
 
 @pytest.mark.parametrize("kind", ["cylinder", "sphere"])
 @pytest.mark.parametrize("led", ["rod", "block"])
+@pytest.mark.thorough
 def test_a_thin_rod_or_small_ball_does_not_get_into_a_block_in_one_step(
     kind: str, led: str
 ) -> None:

@@ -137,6 +137,7 @@ def test_blocks_do_not_pass_through_each_other_in_large_steps(
     assert -2e-2 < found.gap < 0
 
 
+@pytest.mark.thorough
 def test_a_path_that_only_a_pass_could_continue_says_what_is_in_the_way() -> None:
     """Less reach than contact of this pressure needs."""
     supports = Supports(symmetry=PLANES, prescribed={"upper z1": led(-0.6)})
@@ -272,6 +273,7 @@ def test_blocks_in_contact_are_stable_and_a_lifted_one_leaves_nothing_behind() -
     assert after.displacement[lower] == pytest.approx(np.zeros((len(lower), 3)), abs=1e-7)
 
 
+@pytest.mark.thorough
 def test_derivatives_by_shape_and_material_are_those_of_problems_solved_anew() -> None:
     """The response is the volume under the pressed face of the upper block.
 

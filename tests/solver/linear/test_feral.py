@@ -46,6 +46,7 @@ def dense(pattern: Pattern, values: np.ndarray) -> np.ndarray:
     return upper + np.triu(upper, 1).T
 
 
+@pytest.mark.thorough
 def test_the_inertia_is_right_along_a_path_through_a_limit_point(
     ball: Problem, path: Trace
 ) -> None:

@@ -131,6 +131,7 @@ def test_superlu_finds_the_same_solution(bellows: Meshes, ninjaflex: Ogden) -> N
     assert portable.newton_iterations == usual.newton_iterations
 
 
+@pytest.mark.thorough
 def test_a_body_that_turns_far_needs_finite_motions(bellows: Meshes, ninjaflex: Ogden) -> None:
     turning = solve(actuator(bellows, ninjaflex, bubbles=8), 0.36)
     adding = solve(actuator(bellows, ninjaflex, axis=False, bubbles=8), 0.36)

@@ -58,6 +58,7 @@ def symmetric(loads: float) -> Problem:
     ("pose", "loads", "first_step"),
     [(lopsided, 5.0, 0.1), (symmetric, 2.0, 0.03), (symmetric, 3.0, 0.1), (symmetric, 8.0, 0.3)],
 )
+@pytest.mark.thorough
 def test_a_column_buckles_at_the_same_load_whatever_mesh_and_first_step(
     pose: Callable[[float], Problem], loads: float, first_step: float
 ) -> None:
@@ -88,6 +89,7 @@ def test_a_walk_by_load_says_where_a_column_buckles() -> None:
         pytest.param(8.0, "auto", marks=[needs_inertia, pytest.mark.slow]),
     ],
 )
+@pytest.mark.thorough
 def test_a_walk_that_bends_away_before_it_buckles_says_where(
     loads: float, linear_solver: str
 ) -> None:

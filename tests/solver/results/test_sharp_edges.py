@@ -110,6 +110,7 @@ def test_an_edge_where_the_body_is_cut_is_not_one_of_the_body(cells: Meshes) -> 
     assert trusted_nodes(problem(split, RADIUS, supports=cut)).all()
 
 
+@pytest.mark.thorough
 def test_the_peak_at_a_notch_rises_without_end_but_settles_at_a_distance(cells: Meshes) -> None:
     sharp, rounded = [], []
     for divisions in (2, 4, 8):

@@ -109,6 +109,7 @@ def test_work_derivatives_have_the_same_bits_every_time(body: Solid) -> None:
         assert np.array_equal(first, again)
 
 
+@pytest.mark.thorough
 def test_stress_derivatives_are_those_of_the_stress(body: Solid) -> None:
     u, count = displaced(), len(MESH.tets)
     velocity, weights, by_volume = draws(NODAL, (count, 4, 6), (count,))

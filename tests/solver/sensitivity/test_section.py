@@ -83,6 +83,7 @@ def motion(section: SectionDerivatives) -> np.ndarray:
 
 
 @pytest.mark.parametrize("name", STATES)
+@pytest.mark.thorough
 def test_derivatives_are_those_of_cells_solved_anew(name: str) -> None:
     found = section_response(solved(name)).derivatives
     assert differences(name, motion) == pytest.approx(found, rel=1e-6)
@@ -96,6 +97,7 @@ def test_what_one_load_does_to_another_s_motion_is_mutual(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", STATES)
+@pytest.mark.thorough
 def test_complementary_energy_changes_by_the_motions(name: str) -> None:
     slopes = differences(name, lambda section: np.array(section.complementary_energy))
     assert slopes == pytest.approx(motion(section_response(solved(name))), rel=1e-7)

@@ -45,6 +45,7 @@ def verdicts(report: PrintabilityReport) -> list[tuple[str, str]]:
     return [(rule.rule, rule.verdict) for rule in report.rules]
 
 
+@pytest.mark.thorough
 def test_a_file_gets_the_report_that_its_mesh_and_port_get(bellows: Bellows, box: str) -> None:
     status, found = answer(bellows, box)
     declared = PrintedModel(VERTICES, TRIANGLES, openings=(port_of(),))
@@ -101,6 +102,7 @@ def test_a_turned_part_is_judged_as_it_stands_and_placed_as_in_its_file(
     np.testing.assert_allclose(numbers(rules["bed_contact"]["where"]), (14.4, 5.2, 5.2), atol=0.11)
 
 
+@pytest.mark.thorough
 def test_orientations_are_compared_and_the_best_is_judged(bellows: Bellows, tmp_path: Path) -> None:
     inner = (30.0, 14.0, 8.0)
     path = written(tmp_path / "flat.stl", binary_stl(*arrays(hollow_box(inner=inner))))

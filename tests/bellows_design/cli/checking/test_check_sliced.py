@@ -52,6 +52,7 @@ def test_an_opening_in_gcode_faces_the_nearest_side_of_the_part(
     assert opening.direction == direction
 
 
+@pytest.mark.thorough
 def test_gcode_that_is_none_gets_one_sentence(bellows: Bellows, tmp_path: Path) -> None:
     path = tmp_path / "part.gcode"
     path.write_bytes(b"\x89PNG\r\n" * 100)
@@ -70,6 +71,7 @@ def written(beads: Beads, path: Path) -> str:
     return str(path)
 
 
+@pytest.mark.thorough
 def test_gcode_with_layers_that_leak_is_refused(bellows: Bellows, tmp_path: Path) -> None:
     """It seals in the model of the beads, but its layers are 0.2 mm high."""
     path = written(Box().beads, tmp_path / "box.gcode")

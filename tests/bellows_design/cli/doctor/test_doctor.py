@@ -153,6 +153,7 @@ def test_a_library_that_ends_its_process_is_named_and_those_before_it_are_well(
     assert names["rtree"].verdict == "fail" and "libx11-6" in names["psutil"].mend
 
 
+@pytest.mark.thorough
 def test_a_probe_that_does_not_answer_is_ended(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

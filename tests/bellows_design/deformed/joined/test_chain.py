@@ -19,6 +19,7 @@ from solver import Mesh
 
 @pytest.mark.parametrize("count", [1, 2, 4])
 @pytest.mark.parametrize("free", [False, True])
+@pytest.mark.thorough
 def test_it_is_the_cad_body_and_watertight(count: int, free: bool) -> None:
     """Stubs of free ends keep the channel open up to the last gap's middle."""
     design = small(f"number_of_bubbles={count}", f"length={8 + 7 * count}")
@@ -37,6 +38,7 @@ def test_it_is_the_cad_body_and_watertight(count: int, free: bool) -> None:
     assert flat == pytest.approx(wanted, rel=0.02)
 
 
+@pytest.mark.thorough
 def test_nothing_moves_without_load() -> None:
     design = small()
     for free in (False, True):

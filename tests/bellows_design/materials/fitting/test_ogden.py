@@ -188,6 +188,7 @@ def test_a_fit_scales_with_the_stress(scale: float, alpha: float, mode: str) -> 
     )
 )
 @settings(max_examples=40, deadline=None)
+@pytest.mark.thorough
 def test_whatever_the_reader_lets_through_is_fitted_or_refused(
     points: list[tuple[int, float, float]],
 ) -> None:

@@ -138,6 +138,7 @@ def bent() -> BodyEvaluation:
     return evaluate(bar(gravity={}), pressures=[0.002])
 
 
+@pytest.mark.thorough
 def test_a_bar_bends_away_from_its_hole_further_the_more_it_is_under_pressure() -> None:
     found = bent()
     assert found.converged and found.stable and not found.warnings

@@ -11,6 +11,7 @@ from bellows_design.own_body.analysis.touching import IMAGES, WALLS, touching
 from solver.mesh.mesh import Mesh
 
 
+@pytest.mark.thorough
 def test_the_path_ends_where_a_slit_closes() -> None:
     """The walls above and below are plates over a slit of 0.2 mm."""
     slit = box(20, 5, 4).cut(box(14, 4, 0.2, at=(3, 0, 1.9))).Solids()[0]

@@ -120,6 +120,7 @@ def page_count(content: bytes) -> int:
     return len(re.findall(rb"/Type /Page\b", content))
 
 
+@pytest.mark.thorough
 def test_a_pdf_has_pages_of_a4_that_are_counted() -> None:
     content = usual_pdf()
     assert content.startswith(b"%PDF-") and content.rstrip().endswith(b"%%EOF")
@@ -129,6 +130,7 @@ def test_a_pdf_has_pages_of_a4_that_are_counted() -> None:
     assert 4 <= page_count(content) <= 12
 
 
+@pytest.mark.thorough
 def test_a_pdf_grows_by_pages_with_what_is_said() -> None:
     message = "A sentence of the rule that is long enough for some lines. " * 12
     rules = [RuleResult(f"rule_{n}", "warn", 1.0, 0.0, "mm", message, "there") for n in range(12)]
@@ -137,6 +139,7 @@ def test_a_pdf_grows_by_pages_with_what_is_said() -> None:
     assert long > short
 
 
+@pytest.mark.thorough
 def test_dollar_signs_are_no_formulas() -> None:
     design = design_of().model_copy(update={"description": r"costs $\frac{1}{2$ and {more} %"})
     found = findings(design, made_up(design))

@@ -45,6 +45,7 @@ def drawings_of(name: str) -> list[Drawing]:
 
 
 @each_design
+@pytest.mark.thorough
 def test_drawn_lengths_equal_the_parameters(name: str) -> None:
     for view in views_of(name):
         for each in view.dimensions:

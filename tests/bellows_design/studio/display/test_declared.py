@@ -16,6 +16,7 @@ def verdicts(design: Design) -> dict[tuple[str, str], str]:
 
 
 @pytest.mark.parametrize("name", shipped_designs())
+@pytest.mark.thorough
 def test_declared_lights_are_those_of_the_whole_check(name: str) -> None:
     design = load_design(name)
     report = check(design, build_part(design))

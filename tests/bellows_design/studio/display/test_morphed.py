@@ -58,6 +58,7 @@ def of_bubbles(design: Design, shape: Shape) -> np.ndarray:
         {"number_of_bubbles": 4, "chamber_length": 1.5},
     ],
 )
+@pytest.mark.thorough
 def test_points_of_the_shape_lie_on_the_cad_solid(values: dict[str, float]) -> None:
     design = changed(BASE, values)
     assert cell().fits(design)

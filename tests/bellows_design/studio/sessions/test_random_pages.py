@@ -24,6 +24,7 @@ PAUSES = (0.0, 0.0, 0.001, 0.005, 0.02, 0.05, 0.15)
 @pytest.mark.parametrize(
     ("seed", "moves"), [(0, 30), *(pytest.param(seed, 250, marks=SLOW) for seed in range(1, 4))]
 )
+@pytest.mark.thorough
 def test_every_last_rest_on_a_valid_design_is_answered(
     seed: int, moves: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -48,6 +48,7 @@ def test_moving_alone_solves_nothing_and_rest_solves_the_last_revision(tmp_path:
     in_loop(tmp_path, check)
 
 
+@pytest.mark.thorough
 def test_many_quick_rests_leave_the_answer_of_the_last(tmp_path: Path) -> None:
     async def check(page: Page) -> None:
         for revision in range(1, 30):
@@ -116,6 +117,7 @@ def test_the_page_is_told_of_crashes_and_failures_and_goes_on(kind: str, tmp_pat
     in_loop(tmp_path, check)
 
 
+@pytest.mark.thorough
 def test_a_solve_that_hangs_does_not_keep_the_next_design_from_its_answer(tmp_path: Path) -> None:
     async def check(page: Page) -> None:
         page.tell("change", 1, values={"stub": "hang"})

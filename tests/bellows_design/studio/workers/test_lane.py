@@ -200,6 +200,7 @@ asyncio.run(main())
 
 @pytest.mark.skipif(os.name == "nt", reason="signals of POSIX")
 @pytest.mark.parametrize("held", [False, True])
+@pytest.mark.thorough
 def test_processes_end_with_a_server_that_is_killed(held: bool) -> None:
     places = os.pathsep.join([*sys.path])
     with subprocess.Popen(
@@ -279,6 +280,7 @@ def test_a_process_that_is_killed_while_held_is_replaced() -> None:
 
 
 @pytest.mark.parametrize("kind", ["slow", "deaf"])
+@pytest.mark.thorough
 def test_what_is_cancelled_while_held_makes_room_for_another_page(
     kind: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:

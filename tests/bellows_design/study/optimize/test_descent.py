@@ -147,6 +147,7 @@ def test_a_resumed_search_asks_nothing_that_it_knows(results):
     assert after.best().design == before.best().design
 
 
+@pytest.mark.thorough
 def test_a_search_that_is_cut_short_goes_the_same_way_when_it_is_resumed(tmp_path):
     def searched(name: str, lanes: Lanes) -> Coordinator | None:
         study = study_of(Optimization(FINGER, GOAL))

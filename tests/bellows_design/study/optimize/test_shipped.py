@@ -27,6 +27,7 @@ def test_the_optimized_finger_bends_further_at_less_stress_than_the_papers_best(
     assert not found.contact.detected
 
 
+@pytest.mark.thorough
 def test_the_optimized_finger_keeps_the_requirements_of_the_paper():
     design = Design.from_toml(FINGER_NINE.read_text("utf-8"))
     bellows, printer = design.bellows, design.profile()
