@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 from printers.errors import PrintersError
+from printers.slicing.guardian import RUNNING
 from printers.slicing.running import OUTPUT_KEPT, run
 
 
@@ -64,15 +65,21 @@ with working_folder() as folder:
 """
 
 
+def _written(folder: Path, name: str) -> str:
+    """What stands in the file of that name in a subfolder; empty until there is one."""
+    return "".join(path.read_text() for path in folder.glob(f"*/{name}"))
+
+
 def test_after_a_kill_the_slicer_its_children_and_its_folder_are_gone(tmp_path: Path) -> None:
     """SIGKILL leaves a program no time to clear up."""
     surroundings = {**os.environ, "TMPDIR": str(tmp_path)}
     killed = subprocess.Popen([sys.executable, "-c", KILLED], env=surroundings)
     deadline = time.monotonic() + 60
-    while not (said := [path.read_text() for path in tmp_path.glob("*/part.gcode")]) or not said[0]:
+    # the program writes before its number is noted: only a noted one is found by who clears up
+    while not (_written(tmp_path, RUNNING) and (said := _written(tmp_path, "part.gcode"))):
         assert killed.poll() is None and time.monotonic() < deadline
         time.sleep(0.01)
-    processes = [int(number) for number in said[0].split()]
+    processes = [int(number) for number in said.split()]
     assert len(processes) == 2 and all(is_running(each) for each in processes)
     killed.kill()
     killed.wait()
