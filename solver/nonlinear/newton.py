@@ -1,20 +1,7 @@
 """Newton's method at one load.
 
-Far from equilibrium the tangent of a slender body is a poor predictor: an increment stretches walls
-to second order, and the stress of that, which the next correction removes, acts on the body's
-softest mode like an axial force on a column, which makes that mode too stiff, too soft or unstable.
-So the geometric part of the tangent is formed with the stress after the increment to first order,
-which is in equilibrium with the loads to first order too: the mixed integration point method
-(Magisano, Leonetti and Garcea, CMAME 313, 2017, doi 10.1016/j.cma.2016.10.023). The residual is
-unchanged, and so is the solution, and near equilibrium both tangents are the same. Half of the
-paper's Prototype 1 takes 10 to 17 factorizations with it, whatever the load steps, and 11 to 29
-without. It does not help cells with a moving plane, short and thick, and is not used there. The
-stress of membranes, which hardly stretch, is always extrapolated: without that a strip with an
-inextensible film takes more than ten times as many factorizations, or stops short of its load. So
-is that of a body with a region a hundred times as stiff as another one or more: a beam with a film
-of a two-hundredth of its height takes 13 factorizations whatever the ratio of stiffness; without,
-21 at 1e4, and at 1e6 it stops short (``tests/benchmarks/stiffness_ratio.py``). That holds for cells
-with a moving plane too.
+After a correction far from equilibrium the next tangent is formed with extrapolated stress
+(`solver.nonlinear.extrapolation`); the residual is unchanged, and so is the solution.
 """
 
 from __future__ import annotations
@@ -33,6 +20,7 @@ from solver.nonlinear.attempts import Attempt, Correction, NoCorrection
 from solver.nonlinear.budget import Budget
 from solver.nonlinear.checkpoint import Checkpoint, Effort
 from solver.nonlinear.events import Event, Kind, Listener
+from solver.nonlinear.extrapolation import DIFFERENCE, Extrapolation
 from solver.nonlinear.kinematics import Kinematics
 from solver.nonlinear.linear_system import LinearSystem
 from solver.nonlinear.loading import Loading
@@ -41,9 +29,6 @@ from solver.problem.problem import Problem
 from solver.results.sharp_edges import trusted_nodes
 from solver.results.solution import PathPoint
 from solver.results.stress import Peak, deviatoric_at_sides, von_mises
-
-DIFFERENCE = 1e-6
-"""Fraction of the load between the two residuals of a difference quotient."""
 
 EDGE_SHARE = 0.05
 """Upper bound of the loose tolerance, as a fraction of a mean edge."""
@@ -58,9 +43,6 @@ strain is its displacement over a length of the mesh: in bellows the ratio is be
 
 PRESSURE_ROUNDING = 1e-9
 """Relative corrections of the hydrostatic pressure below this one always count as small."""
-
-STIFFENING = 1e2
-"""Ratio of the shear moduli of two materials from which on the stress is extrapolated."""
 
 DIVERGED = 1.0
 """Corrections of so many body diagonals count as divergence."""
@@ -103,13 +85,11 @@ class Newton:
         self.system = LinearSystem(self.assembly, self.options.linear_solver, system)
         self.kinematics = Kinematics.of(self.problem, self.assembly.plane, self.loading)
         self.fading_force = self._fading_force()
-        self.slender = self.problem.axis is not None and self.assembly.plane is None
-        moduli = self.problem.distribution.moduli
-        self.stiffened = bool(moduli.max() >= STIFFENING * moduli.min())
+        self.extrapolation = Extrapolation.of(self.problem, self.assembly, self.kinematics)
         self.trusted = trusted_nodes(self.problem)
         self.loose_tolerance = min(self.options.loose_tolerance, EDGE_SHARE * mesh.edge / mesh.size)
         # stress left open must not outweigh a soft spring, nor stretch a stiff film
-        if self.problem.springs or self.problem.membranes or self.stiffened:
+        if self.problem.springs or self.problem.membranes or self.extrapolation.stiffened:
             self.loose_tolerance = min(self.loose_tolerance, self.options.tolerance)
         self.budget = Budget(self.options)
 
@@ -189,7 +169,9 @@ class Newton:
                     return replace(attempt, touched=touched)
                 fast = False
             reuse = fast and own and not onward
-            state = found.moved if small or fast else self._extrapolated(found)
+            state = found.moved
+            if not (small or fast):
+                state = self.extrapolation.with_stress(found.state, found.increment, found.moved)
             previous = distance
         failure = f"Newton did not converge in {iteration} iterations"
         return Attempt(guess, iteration, failure, touched=touched)
@@ -352,63 +334,7 @@ class Newton:
     def predicted(self, reached: Attempt, load: float, target: float) -> State:
         """The state at ``target`` to first order from one at ``load``, with its supports there."""
         assert reached.direction is not None
-        step = reached.direction.scaled(target - load)
-        moved = self.kinematics.advanced(reached.state, step)
-        if self.problem.supports.prescribed:
-            return self.led_on(reached.state, load, step, moved, target)
-        return self._with_stress(reached.state, step, moved)
-
-    def led_on(
-        self, state: State, load: float, increment: State, moved: State, target: float
-    ) -> State:
-        """``moved`` with its supports and the stress of its films at another load.
-
-        It is the ``state`` at ``load`` after an ``increment`` of the unknowns. What supports lead
-        displaces nodes without any, and stretches films too.
-        """
-        if not self.problem.supports.prescribed:
-            return self.with_film_stress(state, increment, moved)
-        there = self.kinematics.with_supports(moved, target)
-        if self.assembly.films is None and not self.stiffened:
-            return there
-        displacement = increment.displacement + self._led_by_supports(state, load, target)
-        return self.with_film_stress(state, replace(increment, displacement=displacement), there)
-
-    def _led_by_supports(self, state: State, load: float, target: float) -> Reals:
-        """What supports lead between two loads to first order, displacements (n, 3)."""
-        step = DIFFERENCE if load < 0.5 else -DIFFERENCE
-        there = self.kinematics.with_supports(state, load + step)
-        led: Reals = (there.displacement - state.displacement) * ((target - load) / step)
-        return led
-
-    def _extrapolated(self, found: Correction) -> State:
-        """The corrected state with the stress after the correction, to first order."""
-        return self._with_stress(found.state, found.increment, found.moved)
-
-    def _with_stress(self, state: State, increment: State, moved: State) -> State:
-        """``moved`` with the stress after an ``increment`` from ``state``, to first order.
-
-        On a cell with a moving plane only that of stiff regions (see the module's text).
-        """
-        moved = self.with_film_stress(state, increment, moved)
-        if not self.slender or self.stiffened:
-            return moved
-        return replace(moved, geometric_stress=self._extrapolated_stress(state, increment))
-
-    def with_film_stress(self, state: State, increment: State, moved: State) -> State:
-        """The same for membranes and stiff regions only; ``moved`` itself without any."""
-        films = self.assembly.films
-        if films is not None:
-            strain = films.extrapolated_strain(state, increment)
-            moved = replace(moved, membrane_strain=strain)
-        if not self.stiffened:
-            return moved
-        return replace(moved, geometric_stress=self._extrapolated_stress(state, increment))
-
-    def _extrapolated_stress(self, state: State, increment: State) -> Reals:
-        """Stress (e, q, 6) after an increment to first order, MPa."""
-        along = replace(increment, displacement=self.kinematics.linear(state, increment))
-        return self.assembly.extrapolated_stress(state, along)
+        return self.extrapolation.predicted(reached.state, reached.direction, load, target)
 
     def passed(self, before: State, load: float, after: State, target: float) -> str:
         """Why a state at ``target`` cannot follow one at ``load``: bodies passed; else empty."""

@@ -124,7 +124,7 @@ class Arcs:
         load = here.load + arc.slope * length
         step = newton.system.expanded(arc.tangent).scaled(length)
         moved = newton.kinematics.advanced(here.state, step)
-        guess = newton.led_on(here.state, here.load, step, moved, load)
+        guess = newton.extrapolation.led_on(here.state, here.load, step, moved, load)
         return corrected(newton, guess, load, row)
 
     def _at_load(self, arc: Arc, load: float) -> Arc:

@@ -75,7 +75,7 @@ def corrected(newton: Newton, guess: State, load: float, row: Row) -> Equilibriu
         small = newton.pressure_size(increment, there) <= pressure_bound(tolerance)
         if small and correction <= tolerance * size:
             return equilibrium_point(newton, there, load, iteration)
-        state = newton.led_on(state, before, increment, moved, load)
+        state = newton.extrapolation.led_on(state, before, increment, moved, load)
     return EquilibriumPoint(
         guess, load, iteration, failure=f"no convergence in {iteration} iterations"
     )

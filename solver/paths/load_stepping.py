@@ -268,7 +268,7 @@ def _from_zero(newton: Newton) -> tuple[Segment[Attempt], Points]:
 
 def _first_step(newton: Newton, start: Attempt) -> float:
     """The first step by the options, or by the body's motion, as a fraction of the load."""
-    if newton.options.first_step is not None or not newton.slender:
+    if newton.options.first_step is not None or not newton.extrapolation.slender:
         return newton.options.first_step or FIRST_STEP
     assert start.direction is not None
     speed = newton.kinematics.longest(start.state, start.direction)

@@ -5,11 +5,11 @@
 A hollow beam of neo-Hookean rubber (10 × 5.2 × 2.2 mm, shear modulus 1 MPa, half of it modelled),
 clamped at one end, has a film at its lower side that is stiffer by a ratio. It is inflated by
 0.25 MPa, or its other end is led down by 3 mm. For each ratio: what Newton's method takes, and what
-it would take without extrapolated stress (``solver.nonlinear.newton``); whether PARDISO's pivots
-say what is true (one negative one for each pressure, the state being stable), what a linear solve
-of the last tangent leaves of its right-hand side and how many pivots had to be perturbed, once as
-it is and once without scaling of the unknowns. SuperLU repeats the solve. Prints Markdown, writes
-JSON.
+it would take without extrapolated stress (`solver.nonlinear.extrapolation`); whether PARDISO's
+pivots say what is true (one negative one for each pressure, the state being stable), what a linear
+solve of the last tangent leaves of its right-hand side and how many pivots had to be perturbed,
+once as it is and once without scaling of the unknowns. SuperLU repeats the solve. Prints Markdown,
+writes JSON.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from scipy.sparse import csr_array
 sys.path.insert(0, str(Path(__file__).parents[1] / "support"))
 from meshes import cell_mesh
 
-import solver.nonlinear.newton
+import solver.nonlinear.extrapolation
 from solver import Mesh, Ogden, Problem, Solution, SolverOptions, Supports, reaction, solve
 from solver.arrays import Reals
 from solver.assembly.assembly import Assembly
@@ -116,12 +116,12 @@ def lowered(at: Reals, load: float) -> Reals:
 @contextmanager
 def plain_tangents() -> Iterator[None]:
     """Without extrapolated stress, however stiff a region is."""
-    newton = solver.nonlinear.newton
-    usual, newton.STIFFENING = newton.STIFFENING, np.inf
+    extrapolation = solver.nonlinear.extrapolation
+    usual, extrapolation.STIFFENING = extrapolation.STIFFENING, np.inf
     try:
         yield
     finally:
-        newton.STIFFENING = usual
+        extrapolation.STIFFENING = usual
 
 
 def row(load: str, film: float, bulk: float, ratio: float) -> Row:

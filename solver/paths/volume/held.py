@@ -100,7 +100,7 @@ def at_volume(newton: Newton, start: HeldVolume, wanted: float) -> HeldVolume:
     change = (wanted - start.volume) / start.compliance
     step = newton.system.expanded(change * here.direction)
     moved = newton.kinematics.advanced(here.state, step)
-    guess = newton.with_film_stress(here.state, step, moved)
+    guess = newton.extrapolation.with_film_stress(here.state, step, moved)
 
     def row(state: State, equilibrium: Equilibrium, r: Reals, d: Reals) -> float:
         excess = volume_of(newton, state) - wanted
