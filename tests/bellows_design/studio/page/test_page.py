@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from browser import hard_to_read, wider_than_the_window
+from browser import NARROW, hard_to_read, opened, wider_than_the_window
 from pretended_studio import PretendedStudio, angle_of, stress_of
 
 from bellows_design.design.design import Design
@@ -343,6 +343,68 @@ def test_lost_connection_is_said_and_the_changes_come_back(
     _expect_angle(page, _design("bubble_height=22"))
 
 
+def test_page_that_is_one_too_many_says_why_and_comes_in_once_there_is_room(
+    page: Any, studio: PretendedStudio
+) -> None:
+    studio.refusal = (1013, b"8 pages are open already")
+    studio.cut()
+    page.locator("#banner", has_text="8 pages are open already. Trying again").wait_for()
+    page.wait_for_timeout(2500)  # it is turned away again, ever later
+    assert "8 pages" in page.locator("#banner").inner_text()
+    studio.refusal = None
+    page.locator("#banner", has_text="Connected again").wait_for(timeout=15_000)
+
+
+def test_studio_that_was_ended_is_said_to_have_ended_until_it_is_back(
+    page: Any, studio: PretendedStudio
+) -> None:
+    studio.cut(1001)
+    studio.stop()
+    page.locator("#banner", has_text="The studio has ended").wait_for()
+    page.wait_for_timeout(800)  # what fails now has no code
+    assert "The studio has ended" in page.locator("#banner").inner_text()
+    studio.start()
+    page.locator("#banner", has_text="Connected again").wait_for(timeout=15_000)
+
+
+def test_first_connection_is_waited_for_and_not_called_lost(
+    browser: Any, studio: PretendedStudio
+) -> None:
+    studio.held = True
+    with opened(browser, studio.url, calm=True) as (page, seen):
+        page.locator("#state", has_text="waiting for the studio").wait_for()
+        assert "again" not in page.locator("#figures").inner_text()
+        assert page.locator("#banner").is_hidden()
+        assert seen.all == []
+
+
+@pytest.mark.parametrize("number", ["9.9", "1.3"])
+def test_in_a_narrow_window_the_word_on_the_figures_covers_none_of_them(
+    browser: Any, studio: PretendedStudio, number: str
+) -> None:
+    with opened(browser, studio.url, width=NARROW, calm=True) as (page, _):
+        _settle(page)
+        studio.refined_seconds = 60
+        _type(page, "bubble_thickness", number)
+        page.locator("#figures:not([data-state=refined]):not([data-state=moving])").wait_for()
+        badge = page.locator("#state").bounding_box()
+        for each in page.locator("#figures .reading").all():
+            box = each.bounding_box()
+            assert badge["y"] + badge["height"] <= box["y"] + 1
+
+
+def test_scene_says_what_is_computed(page: Any, studio: PretendedStudio) -> None:
+    page.locator("#tab-forces").click()
+    studio.held = True
+    page.locator("#scene-run").click()
+    page.locator("#scene-status", has_text="Computing").wait_for()
+    studio.held = False
+    revision = int(page.locator("#angle").get_attribute("data-revision"))
+    for message, fraction in (("mesh 2", None), ("", 0.5)):
+        studio.say("working", revision=revision, what="scene", message=message, fraction=fraction)
+    page.locator("#scene-status", has_text="Computing… mesh 2, 50 %").wait_for()
+
+
 def test_scene_is_asked_for_with_its_keys_and_shown_as_a_picture(
     page: Any, studio: PretendedStudio
 ) -> None:
@@ -352,6 +414,9 @@ def test_scene_is_asked_for_with_its_keys_and_shown_as_a_picture(
     page.locator("#scene-field-distance").fill("2,5")
     page.locator("#scene-run").click()
     page.locator("#scene-figures", has_text="1.23 N ± 4 %").wait_for()
+    notes = page.locator("#scene-notes li").all_inner_texts()
+    assert notes == ["At 0.05 MPa it slips.", "mass_g is large."]
+    assert page.locator("#scene-caption").inner_text() == "Darker: later."
     asked = studio.last("scene")
     assert asked["scene"] == "blocked" and asked["support"] == "wall" and asked["distance"] == 2.5
     width = page.locator("#scene-picture").evaluate(

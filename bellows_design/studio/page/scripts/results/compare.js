@@ -2,7 +2,7 @@
 
 import { byId, element, setText } from "../parts/elements.js";
 import { fixed, shown } from "../model/numbers.js";
-import { readable } from "../parameters/choice.js";
+import { readable } from "../parts/words.js";
 import { changedValues, same } from "../model/values.js";
 
 export class Compare {

@@ -70,7 +70,7 @@ export class Figures {
   }
 
   #badgeText(state) {
-    const lost = !this.#session.isConnected && ["moving", "computing", "waiting"].includes(state);
+    const lost = !this.#session.isConnected && ["moving", "computing"].includes(state);
     return lost ? "not connected" : BADGES[state];
   }
 
@@ -214,6 +214,7 @@ function spoken(answer) {
 }
 
 function explanation(state, problems, shownAnswer, connected) {
+  if (state === "waiting") return "";
   if (!connected) return "The figures follow once the studio answers again.";
   const old = shownAnswer ? " The figures are those of an earlier design." : "";
   if (state === "invalid") return (problems[0]?.message ?? "") + old;

@@ -1,0 +1,12 @@
+// Names and sentences of the program as people write them.
+
+/** A name as people write it. */
+export function readable(name) {
+  return name.replaceAll("_", " ");
+}
+
+/** A sentence that begins with a capital, unless it begins with a parameter's name. */
+export function capitalised(text) {
+  const first = text.split(/\s/, 1)[0];
+  return first.includes("_") ? text : text.charAt(0).toUpperCase() + text.slice(1);
+}
