@@ -81,6 +81,24 @@ def test_mouse_moves_a_slider_and_the_drag_is_one_step_of_the_history(page: Any)
     _expect_angle(page, _design())
 
 
+DRAG = """(range, value) => {
+  range.dispatchEvent(new PointerEvent("pointerdown"));
+  range.value = value;
+  range.dispatchEvent(new Event("input"));
+  range.dispatchEvent(new PointerEvent("pointerup"));
+}"""
+
+
+def test_two_drags_without_a_rest_between_them_are_two_steps(page: Any) -> None:
+    for name in ("bubble_height", "bubble_width"):
+        _slider(page, name).evaluate(DRAG, 22)
+    _expect_angle(page, _design("bubble_height=22", "bubble_width=22"))
+    page.locator("#undo").click()
+    _expect_angle(page, _design("bubble_height=22"))
+    page.locator("#undo").click()
+    _expect_angle(page, _design())
+
+
 def test_typed_number_may_have_a_comma(page: Any) -> None:
     _type(page, "bubble_height", "18,25")
     _expect_angle(page, _design("bubble_height=18.25"))

@@ -106,8 +106,9 @@ export class Session extends EventTarget {
     this.#restTimer = setTimeout(() => this.#rest(), REST_MS);
   }
 
-  /** From here to `endGesture` rests are one step of the history. */
+  /** From here to `endGesture` rests are one step of the history; what came before is another. */
   beginGesture() {
+    this.settle();
     this.#gestures += 1;
     this.#gesture = this.#gestures;
   }

@@ -108,7 +108,7 @@ export class Figures {
 
   #working({ what, fraction, message }) {
     const { state } = this.#session;
-    const share = fraction ? ` ${Math.round(100 * fraction)} %` : "";
+    const share = fraction && fraction < 1 ? ` ${Math.round(100 * fraction)} %` : "";
     if (what === "preview" && state === "computing") setText(this.badge, `computing…${share}`);
     if (what === "preview" && message && state === "computing") setText(this.how, message);
     if (what === "refine" && state === "computing") setText(this.badge, `refining…${share}`);

@@ -126,7 +126,7 @@ export class Scenes {
   #working({ what, fraction, message }) {
     if (what !== "scene") return;
     if (message) this.#stage = message;
-    const share = fraction ? `, ${Math.round(100 * fraction)} %` : "";
+    const share = fraction && fraction < 1 ? `, ${Math.round(100 * fraction)} %` : "";
     setText(this.status, `Computing… ${this.#stage}${share}`);
   }
 
