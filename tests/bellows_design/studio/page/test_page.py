@@ -153,6 +153,18 @@ def test_figures_of_an_older_design_are_never_shown_as_current(
     assert page.locator("#angle").inner_text() == "1.0"
 
 
+def test_figures_of_a_lower_pressure_than_the_designs_own_say_which(
+    page: Any, studio: PretendedStudio
+) -> None:
+    revision = int(page.locator("#angle").get_attribute("data-revision"))
+    studio.say("answer", revision=revision, state="refined", bending_angle_deg=1.0,
+               max_von_mises_mpa=1.0, cavity_volume_mm3=1.0, verdict="fail", converged=False,
+               pressure_mpa=0.00968, how="kept from before", message="it folds.")  # fmt: skip
+    page.locator("#how", has_text="Kept from before. It folds.").wait_for()
+    labels = page.locator("#figures .figure-label").all_inner_texts()
+    assert all(label.endswith("– at 0.00968 MPa only") for label in labels)
+
+
 def test_preview_never_replaces_the_refined_answer(page: Any, studio: PretendedStudio) -> None:
     revision = int(page.locator("#angle").get_attribute("data-revision"))
     studio.say("answer", revision=revision, state="preview", bending_angle_deg=1.0,
@@ -216,6 +228,29 @@ def test_reset_goes_back_to_the_opened_design_and_can_be_undone(page: Any) -> No
     assert page.locator("#design-changed").is_hidden()
     page.locator("#undo").click()
     _expect_angle(page, _design("bubble_height=23"))
+
+
+def test_comparison_says_that_bubbles_were_as_many_as_fit(page: Any) -> None:
+    page.locator("#pin").click()
+    page.locator("label[for=p-number_of_bubbles-automatic]").click()
+    _type(page, "number_of_bubbles", "3")
+    page.locator("#pinned-differences li", has_text="as many as fit → 3").wait_for()
+
+
+@pytest.mark.parametrize("width", [NARROW, 730, 1130, 1280])
+def test_error_that_is_not_known_yet_stays_within_the_figures(
+    browser: Any, studio: PretendedStudio, width: int
+) -> None:
+    with opened(browser, studio.url, width=width, calm=True) as (page, _):
+        _settle(page)
+        revision = int(page.locator("#angle").get_attribute("data-revision"))
+        studio.say("answer", revision=revision, state="refined", bending_angle_deg=413.2,
+                   max_von_mises_mpa=13.7, cavity_volume_mm3=11160.0, verdict="pass")  # fmt: skip
+        page.locator("#angle", has_text="413.2").wait_for()
+        boxes = [each.bounding_box() for each in page.locator("#figures .reading").all()]
+        parts = [each.bounding_box() for each in page.locator("#figures .reading .margin").all()]
+        for box, part in zip(boxes[:2], parts[:2], strict=True):
+            assert part["x"] + part["width"] <= box["x"] + box["width"] + 1
 
 
 def test_pinned_design_stays_in_view_and_figures_show_the_difference(page: Any) -> None:
@@ -351,10 +386,12 @@ def test_lost_connection_is_said_and_the_changes_come_back(
     page.locator("#banner", has_text="lost").wait_for()
     _type(page, "bubble_width", "21")
     page.locator("#state", has_text="not connected").wait_for()
+    assert page.locator("#save").is_disabled() and page.locator("#run").is_disabled()
     studio.received.clear()
     studio.start()
     page.locator("#banner", has_text="Connected again").wait_for(timeout=15_000)
     _expect_angle(page, _design("bubble_height=22", "bubble_width=21"))
+    assert page.locator("#save").is_enabled() and page.locator("#run").is_enabled()
     assert studio.last("open_toml")["text"] == _design().to_toml()
     assert studio.last("change")["values"] == {"bubble_height": 22, "bubble_width": 21}
     page.locator("#undo").click()
