@@ -92,11 +92,13 @@ class PretendedStudio:
         preview_seconds, refined_seconds: From a rest to both answers.
         received: All messages of the page, in order.
         held: While it is true, no answers are sent.
+        refusal: Code and reason by which new connections are closed at once, if any.
     """
 
     preview_seconds: float = 0.05
     refined_seconds: float = 0.15
     held: bool = False
+    refusal: tuple[int, bytes] | None = None
     received: list[dict[str, Any]] = field(default_factory=list)
     url: str = ""
     port: int = 0
@@ -120,9 +122,9 @@ class PretendedStudio:
         """End all connections and listen no more."""
         self._run(self._end())
 
-    def cut(self) -> None:
+    def cut(self, code: int = 1000) -> None:
         """End all connections; new ones are taken."""
-        self._run(self._close_all())
+        self._run(self._close_all(code))
 
     def say(self, kind: str, **content: Any) -> None:
         """Send a message of one's own to all pages."""
@@ -151,9 +153,9 @@ class PretendedStudio:
         await self._close_all()
         await self._runner.cleanup()
 
-    async def _close_all(self) -> None:
+    async def _close_all(self, code: int = 1000) -> None:
         for socket in list(self._sockets):
-            await socket.close()
+            await socket.close(code=code)
 
     async def _to_all(self, message: Mapping[str, Any]) -> None:
         for socket in self._sockets:
@@ -175,6 +177,9 @@ class PretendedStudio:
     async def _session(self, request: web.Request) -> web.StreamResponse:
         socket = web.WebSocketResponse()
         await socket.prepare(request)
+        if self.refusal:
+            await socket.close(code=self.refusal[0], message=self.refusal[1])
+            return socket
         self._sockets.append(socket)
         await _Talk(self, socket).run()
         self._sockets.remove(socket)
@@ -280,8 +285,10 @@ class _Talk:
         svg = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 40 20">{line}</svg>'
         figures = [{"label": "Force", "value": 1.234, "unit": "N", "error_percent": 4.0}]
         await self.say(
-            "scene", revision=message["revision"], scene=message["scene"], figures=figures, svg=svg
-        )
+            "scene", revision=message["revision"], scene=message["scene"], figures=figures, svg=svg,
+            message="at 0.05 MPa it slips.", warnings=["mass_g is large."],
+            caption="Darker: later.",
+        )  # fmt: skip
 
     async def on_run(self, message: Mapping[str, Any]) -> None:
         revision = message["revision"]

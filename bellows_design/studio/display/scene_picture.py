@@ -41,6 +41,20 @@ def scene_picture(found: ForceCurve) -> str:
     )
 
 
+def scene_caption(found: ForceCurve) -> str:
+    """What the drawing shows, in sentences."""
+    *lower, highest = (f"{reading.pressure_mpa:.3g}" for reading in found.curve)
+    pressures = " and ".join(filter(None, (", ".join(lower), highest)))
+    parts = [
+        f"The finger's lower side at {pressures} MPa, darker the higher; dashed: without load."
+    ]
+    if found.last.touched:
+        parts.append("Red: where it presses.")
+    if isinstance(found.content, Grip):
+        parts.append(f"One of {found.content.fingers} fingers; thinly dashed: the gripper's axis.")
+    return " ".join(parts)
+
+
 def _bounds(found: ForceCurve) -> tuple[Point, Point]:
     """Lowest and highest x and z of all that is drawn, mm."""
     points = [(0.0, 0.0), (found.design.finger_length, 0.0), *_around(found)]

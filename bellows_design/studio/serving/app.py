@@ -8,12 +8,12 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from aiohttp import WSMsgType, web
+from aiohttp import WSCloseCode, WSMsgType, web
 
 from bellows_design.errors import BellowsError, DesignError
 from bellows_design.studio.protocol import LARGEST_MESSAGE, request_of
 from bellows_design.studio.serving.assets import INDEX, Asset, assets
-from bellows_design.studio.serving.security import Guard, guarding
+from bellows_design.studio.serving.security import Guard, guarding, with_headers
 from bellows_design.studio.sessions.lanes import Lanes
 from bellows_design.studio.sessions.session import Session
 
@@ -22,6 +22,8 @@ HEARTBEAT = 20.0
 
 MOST_PAGES = 8
 """Open at once; each may keep two processors busy."""
+
+FULL = b"%d pages of this studio are open already: close one of them" % MOST_PAGES
 
 CLOSING = 1.0
 """s. So long an open page may take to say goodbye."""
@@ -80,12 +82,13 @@ class Studio:
 
     async def session(self, request: web.Request) -> web.StreamResponse:
         """The websocket of one page."""
-        if len(self.sessions) >= MOST_PAGES:
-            raise web.HTTPServiceUnavailable
         socket = web.WebSocketResponse(
             max_msg_size=LARGEST_MESSAGE, heartbeat=HEARTBEAT, timeout=CLOSING
         )
         await socket.prepare(request)
+        if len(self.sessions) >= MOST_PAGES:  # the reason of a refused handshake reaches no page
+            await socket.close(code=WSCloseCode.TRY_AGAIN_LATER, message=FULL)
+            return socket
         session = Session(self.lanes)
         self.sessions[session.key] = session
         self.sockets.add(socket)
@@ -103,7 +106,7 @@ class Studio:
     async def _read(self, socket: web.WebSocketResponse, session: Session) -> None:
         async for message in socket:
             if message.type is not WSMsgType.TEXT:
-                await socket.close(code=1003, message=b"text only")
+                await socket.close(code=WSCloseCode.UNSUPPORTED_DATA, message=b"text only")
                 return
             try:
                 request = request_of(message.data)
@@ -119,12 +122,13 @@ class Studio:
         """Say goodbye to the pages."""
         for socket in tuple(self.sockets):
             with suppress(ConnectionError):
-                await socket.close(code=1001, message=b"the studio ends")
+                await socket.close(code=WSCloseCode.GOING_AWAY, message=b"the studio ends")
 
 
 def application(studio: Studio) -> web.Application:
     """All routes behind the guard."""
     app = web.Application(middlewares=[guarding(studio.guard)], client_max_size=LARGEST_MESSAGE)
+    app.on_response_prepare.append(with_headers(studio.guard))
     app.add_routes(
         [
             web.get("/", studio.page),

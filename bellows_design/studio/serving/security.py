@@ -73,26 +73,32 @@ def require_loopback(host: str) -> None:
 
 
 def guarding(guard: Guard) -> Callable[..., Awaitable[web.StreamResponse]]:
-    """Middleware that refuses what ``guard`` refuses, and sets the headers of every answer."""
+    """Middleware that refuses what ``guard`` refuses; errors of handlers are plain text."""
 
     @web.middleware
     async def guarded(request: web.Request, handler: Handler) -> web.StreamResponse:
         why = guard.refusal(request)
         if why:
-            return _with_headers(web.Response(status=403, text=f"Refused: {why}.\n"), guard)
+            return web.Response(status=403, text=f"Refused: {why}.\n")
         try:
-            response = await handler(request)
+            return await handler(request)
         except web.HTTPException as error:
-            response = web.Response(status=error.status, text=f"{error.reason}\n")
-        return response if response.prepared else _with_headers(response, guard)
+            return web.Response(status=error.status, text=f"{error.reason}\n")
 
     return guarded
 
 
-def _with_headers(response: web.StreamResponse, guard: Guard) -> web.StreamResponse:
-    response.headers.update(HEADERS | {"Content-Security-Policy": _content_policy(guard)})
-    response.headers.pop("Server", None)
-    return response
+def with_headers(
+    guard: Guard,
+) -> Callable[[web.Request, web.StreamResponse], Awaitable[None]]:
+    """What sets the headers of every answer, that of the websocket included, before it is sent."""
+    headers = HEADERS | {"Content-Security-Policy": _content_policy(guard)}
+
+    async def set_headers(_: web.Request, response: web.StreamResponse) -> None:
+        response.headers.update(headers)
+        response.headers.pop("Server", None)
+
+    return set_headers
 
 
 def _content_policy(guard: Guard) -> str:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Any
 
 from bellows_design.design.design import Design
+from bellows_design.validation.quoting import quoted
 
 if TYPE_CHECKING:
     from bellows_design.analysis.evaluation import LoadedState
@@ -43,10 +44,18 @@ def answer_of(
         "message": found.message,
         "verdict": _verdict(reasons),
         "reasons": [reason.message for reason in reasons],
-        "warnings": list(dict.fromkeys((*design.material.warnings, *found.warnings))),
+        "warnings": list(dict.fromkeys(_warnings(design, found))),
         "how": how,
         "seconds": seconds,
     }
+
+
+def _warnings(design: Design, found: LoadedState) -> Iterator[str]:
+    """What makes the figures less reliable, and what they say nothing of."""
+    yield from design.material.warnings
+    yield from found.warnings
+    for name in design.limits.scenes:
+        yield f"whether it holds the scene {quoted(name)} is judged by the whole run only."
 
 
 def _reasons(

@@ -80,7 +80,8 @@ def _refine(known: Known, values: Values, report: Report) -> None:
         found = evaluated(design, progress=report, store=store_at(values))
     known.keep(known.evaluations, design, found)
     checked, seconds = known.reports.get(design.digest), time.perf_counter() - began
-    how = f"evaluated by itself on {len(found.meshes)} meshes"
+    count = len(found.meshes)
+    how = f"evaluated by itself on {count} {'mesh' if count == 1 else 'meshes'}"
     report("answer", **answer_of(design, found, REFINED, how, seconds, checked))
     record, arrays = record_of(found)
     report("evaluated", arrays, record=record)

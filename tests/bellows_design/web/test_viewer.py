@@ -504,6 +504,22 @@ def test_it_fits_and_is_readable(browser: Browser, tmp_path: Path, width: int, t
             assert beside or y + high <= y2 or y2 + high2 <= y, "controls overlap"
 
 
+@pytest.mark.parametrize("width", [NARROW, 1280])
+def test_a_block_of_few_points_beside_many_is_seen_whole(
+    browser: Browser, tmp_path: Path, width: int
+) -> None:
+    """As the sockets of actuators: it reaches farther than all of the fine mesh beside it."""
+    fine = bent_grid(9000, 1)
+    corners, triangles = block(30, 60, 30)
+    points = np.vstack([fine.positions[0], corners - (40, 20, 10)])
+    whole = Surface("part", np.vstack([fine.triangles, triangles + len(fine.positions[0])]), points)
+    with shown(browser, tmp_path, [whole], width=width) as page:
+        picture = drawn(pixels(page))
+        assert picture.any()
+        for border in (picture[0], picture[-1], picture[:, 0], picture[:, -1]):
+            assert not border.any()
+
+
 def test_dark_and_light_pages_have_dark_and_light_stages(browser: Browser, tmp_path: Path) -> None:
     stage = f"async () => getComputedStyle((await {FIRST}).stage).backgroundColor"
     for theme, colour in (("light", "rgb(243, 245, 248)"), ("dark", "rgb(21, 27, 34)")):

@@ -54,8 +54,8 @@ export class Camera {
     this.camera.updateProjectionMatrix();
   }
 
-  /** See all `points` (x, y, z behind each other) of a scene of `size` mm, from where the camera is
-      or from `direction`, with `aside` pixels free at the right and the left. */
+  /** See all `points` (of each surface, x, y, z behind each other) of a scene of `size` mm, from where
+      the camera is or from `direction`, with `aside` pixels free at the right and the left. */
   fit(points, size, direction, aside) {
     this.size = Math.max(size, 1e-6);
     if (direction) this.direction.set(...direction).normalize();
@@ -124,16 +124,19 @@ export class Camera {
   }
 }
 
-/** Least and greatest coordinates of points as the camera sees them. */
-function extentOf(points, matrix) {
+/** Least and greatest coordinates of the points of surfaces as the camera sees them. */
+function extentOf(surfaces, matrix) {
   const [low, high] = [[0, 0, 0].fill(Infinity), [0, 0, 0].fill(-Infinity)];
   const point = new Vector3();
-  for (let i = 0; i < points.length; i += 3) {
-    point.fromArray(points, i).applyMatrix4(matrix);
-    point.toArray().forEach((x, axis) => {
-      low[axis] = Math.min(low[axis], x);
-      high[axis] = Math.max(high[axis], x);
-    });
+  for (const points of surfaces) {
+    for (let i = 0; i < points.length; i += 3) {
+      point.fromArray(points, i).applyMatrix4(matrix);
+      for (let axis = 0; axis < 3; axis += 1) {
+        const x = point.getComponent(axis);
+        if (x < low[axis]) low[axis] = x;
+        if (x > high[axis]) high[axis] = x;
+      }
+    }
   }
   return { low, high };
 }

@@ -199,18 +199,16 @@ export class Shape {
     return { low: this.data.low, high: this.data.high };
   }
 
-  /** Some points of all frames, x, y, z behind each other, mm. */
-  samplePoints() {
-    const { levels, low, high, steps, points } = this.data;
-    const stride = Math.max(1, Math.floor(points / 1500));
-    const found = [];
-    for (let first = 0; first < levels.length; first += 3 * points) {
-      for (let point = 0; point < points; point += stride) {
-        const at = first + 3 * point;
-        for (let axis = 0; axis < 3; axis += 1) {
-          found.push(low[axis] + (levels[at + axis] * (high[axis] - low[axis])) / steps);
-        }
-      }
+  /**
+   * The points of all frames, x, y, z behind each other, mm: all, as boxes have few and a view that
+   * missed one would cut the box off.
+   */
+  allPoints() {
+    const { levels, low, high, steps } = this.data;
+    const found = new Float32Array(levels.length);
+    for (let at = 0; at < levels.length; at += 1) {
+      const axis = at % 3;
+      found[at] = low[axis] + (levels[at] * (high[axis] - low[axis])) / steps;
     }
     return found;
   }

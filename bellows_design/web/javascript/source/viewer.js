@@ -344,7 +344,7 @@ export class Viewer extends EventTarget {
   /** See everything; `view` is a name of VIEWS or a direction towards the camera. */
   resetView(view = this.options.view) {
     if (!this.camera || !this.shapes.length) return;
-    const points = this.shapes.flatMap((shape) => (shape.visible ? shape.samplePoints() : []));
+    const points = this.shapes.filter((shape) => shape.visible).map((shape) => shape.allPoints());
     if (!points.length) return;
     const direction = Array.isArray(view) ? view : VIEWS[view] || VIEWS.corner;
     const aside = this.fieldNames.length && this.camera.width > NARROW ? LEGEND_WIDTH : 0;

@@ -21,9 +21,8 @@ from bellows_design.studio.display.morphed import Cells, MovedCell
 from solver import Mesh
 
 BASE = load_design("prototype_2")
-CLOSE, FARTHEST = 0.02, 0.2
-"""mm. Points lie on the solid, whose triangles are within 0.02 mm of it; but mid-nodes that would
-fold an element of a coarse mesh stand back from fillets."""
+CLOSE = 0.02
+"""mm. Points lie on the solid, whose triangles are within 0.02 mm of it."""
 
 
 @cache
@@ -42,10 +41,10 @@ def solid(design: Design) -> trimesh.Trimesh:
     return trimesh.Trimesh(mesh.vertices, mesh.triangles, process=False)
 
 
-def of_bubbles(design: Design, shape: Shape) -> np.ndarray:
-    """Points between the middles of the first and the last bubble: the ends are boxes."""
+def of_two_bubbles(design: Design, shape: Shape) -> np.ndarray:
+    """All points between the middles of the first two bubbles: the ends are boxes."""
     x, middles = shape.points[:, 0], design.bellows.bubble_middles
-    return shape.points[(x > middles[0] + 0.01) & (x < middles[-1] - 0.01)]
+    return shape.points[(x > middles[0] + 0.01) & (x < middles[1] - 0.01)]
 
 
 @pytest.mark.parametrize(
@@ -60,12 +59,12 @@ def of_bubbles(design: Design, shape: Shape) -> np.ndarray:
 )
 @pytest.mark.thorough
 def test_points_of_the_shape_lie_on_the_cad_solid(values: dict[str, float]) -> None:
+    """With four bubbles also the mid-nodes that the mesh holds back from its sharp fillets."""
     design = changed(BASE, values)
     assert cell().fits(design)
-    points = of_bubbles(design, cell().shape_of(design))
-    _, distance, _ = trimesh.proximity.closest_point(solid(design), points[::17])
-    assert len(points) > 1000 and distance.max() < FARTHEST
-    assert np.quantile(distance, 0.9) < CLOSE
+    points = of_two_bubbles(design, cell().shape_of(design))
+    _, distance, _ = trimesh.proximity.closest_point(solid(design), points)
+    assert len(points) > 1000 and distance.max() < CLOSE
 
 
 def test_there_are_as_many_bubbles_as_the_design_has() -> None:

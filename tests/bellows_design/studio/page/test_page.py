@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from browser import hard_to_read, wider_than_the_window
+from browser import NARROW, hard_to_read, opened, wider_than_the_window
 from pretended_studio import PretendedStudio, angle_of, stress_of
 
 from bellows_design.design.design import Design
@@ -81,6 +81,24 @@ def test_mouse_moves_a_slider_and_the_drag_is_one_step_of_the_history(page: Any)
     _expect_angle(page, _design())
 
 
+DRAG = """(range, value) => {
+  range.dispatchEvent(new PointerEvent("pointerdown"));
+  range.value = value;
+  range.dispatchEvent(new Event("input"));
+  range.dispatchEvent(new PointerEvent("pointerup"));
+}"""
+
+
+def test_two_drags_without_a_rest_between_them_are_two_steps(page: Any) -> None:
+    for name in ("bubble_height", "bubble_width"):
+        _slider(page, name).evaluate(DRAG, 22)
+    _expect_angle(page, _design("bubble_height=22", "bubble_width=22"))
+    page.locator("#undo").click()
+    _expect_angle(page, _design("bubble_height=22"))
+    page.locator("#undo").click()
+    _expect_angle(page, _design())
+
+
 def test_typed_number_may_have_a_comma(page: Any) -> None:
     _type(page, "bubble_height", "18,25")
     _expect_angle(page, _design("bubble_height=18.25"))
@@ -133,6 +151,18 @@ def test_figures_of_an_older_design_are_never_shown_as_current(
     studio.say("answer", revision=revision, **late)
     page.locator("#figures[data-state=refined]").wait_for()
     assert page.locator("#angle").inner_text() == "1.0"
+
+
+def test_figures_of_a_lower_pressure_than_the_designs_own_say_which(
+    page: Any, studio: PretendedStudio
+) -> None:
+    revision = int(page.locator("#angle").get_attribute("data-revision"))
+    studio.say("answer", revision=revision, state="refined", bending_angle_deg=1.0,
+               max_von_mises_mpa=1.0, cavity_volume_mm3=1.0, verdict="fail", converged=False,
+               pressure_mpa=0.00968, how="kept from before", message="it folds.")  # fmt: skip
+    page.locator("#how", has_text="Kept from before. It folds.").wait_for()
+    labels = page.locator("#figures .figure-label").all_inner_texts()
+    assert all(label.endswith("– at 0.00968 MPa only") for label in labels)
 
 
 def test_preview_never_replaces_the_refined_answer(page: Any, studio: PretendedStudio) -> None:
@@ -198,6 +228,29 @@ def test_reset_goes_back_to_the_opened_design_and_can_be_undone(page: Any) -> No
     assert page.locator("#design-changed").is_hidden()
     page.locator("#undo").click()
     _expect_angle(page, _design("bubble_height=23"))
+
+
+def test_comparison_says_that_bubbles_were_as_many_as_fit(page: Any) -> None:
+    page.locator("#pin").click()
+    page.locator("label[for=p-number_of_bubbles-automatic]").click()
+    _type(page, "number_of_bubbles", "3")
+    page.locator("#pinned-differences li", has_text="as many as fit → 3").wait_for()
+
+
+@pytest.mark.parametrize("width", [NARROW, 730, 1130, 1280])
+def test_error_that_is_not_known_yet_stays_within_the_figures(
+    browser: Any, studio: PretendedStudio, width: int
+) -> None:
+    with opened(browser, studio.url, width=width, calm=True) as (page, _):
+        _settle(page)
+        revision = int(page.locator("#angle").get_attribute("data-revision"))
+        studio.say("answer", revision=revision, state="refined", bending_angle_deg=413.2,
+                   max_von_mises_mpa=13.7, cavity_volume_mm3=11160.0, verdict="pass")  # fmt: skip
+        page.locator("#angle", has_text="413.2").wait_for()
+        boxes = [each.bounding_box() for each in page.locator("#figures .reading").all()]
+        parts = [each.bounding_box() for each in page.locator("#figures .reading .margin").all()]
+        for box, part in zip(boxes[:2], parts[:2], strict=True):
+            assert part["x"] + part["width"] <= box["x"] + box["width"] + 1
 
 
 def test_pinned_design_stays_in_view_and_figures_show_the_difference(page: Any) -> None:
@@ -333,14 +386,78 @@ def test_lost_connection_is_said_and_the_changes_come_back(
     page.locator("#banner", has_text="lost").wait_for()
     _type(page, "bubble_width", "21")
     page.locator("#state", has_text="not connected").wait_for()
+    assert page.locator("#save").is_disabled() and page.locator("#run").is_disabled()
     studio.received.clear()
     studio.start()
     page.locator("#banner", has_text="Connected again").wait_for(timeout=15_000)
     _expect_angle(page, _design("bubble_height=22", "bubble_width=21"))
+    assert page.locator("#save").is_enabled() and page.locator("#run").is_enabled()
     assert studio.last("open_toml")["text"] == _design().to_toml()
     assert studio.last("change")["values"] == {"bubble_height": 22, "bubble_width": 21}
     page.locator("#undo").click()
     _expect_angle(page, _design("bubble_height=22"))
+
+
+def test_page_that_is_one_too_many_says_why_and_comes_in_once_there_is_room(
+    page: Any, studio: PretendedStudio
+) -> None:
+    studio.refusal = (1013, b"8 pages are open already")
+    studio.cut()
+    page.locator("#banner", has_text="8 pages are open already. Trying again").wait_for()
+    page.wait_for_timeout(2500)  # it is turned away again, ever later
+    assert "8 pages" in page.locator("#banner").inner_text()
+    studio.refusal = None
+    page.locator("#banner", has_text="Connected again").wait_for(timeout=15_000)
+
+
+def test_studio_that_was_ended_is_said_to_have_ended_until_it_is_back(
+    page: Any, studio: PretendedStudio
+) -> None:
+    studio.cut(1001)
+    studio.stop()
+    page.locator("#banner", has_text="The studio has ended").wait_for()
+    page.wait_for_timeout(800)  # what fails now has no code
+    assert "The studio has ended" in page.locator("#banner").inner_text()
+    studio.start()
+    page.locator("#banner", has_text="Connected again").wait_for(timeout=15_000)
+
+
+def test_first_connection_is_waited_for_and_not_called_lost(
+    browser: Any, studio: PretendedStudio
+) -> None:
+    studio.held = True
+    with opened(browser, studio.url, calm=True) as (page, seen):
+        page.locator("#state", has_text="waiting for the studio").wait_for()
+        assert "again" not in page.locator("#figures").inner_text()
+        assert page.locator("#banner").is_hidden()
+        assert seen.all == []
+
+
+@pytest.mark.parametrize("number", ["9.9", "1.3"])
+def test_in_a_narrow_window_the_word_on_the_figures_covers_none_of_them(
+    browser: Any, studio: PretendedStudio, number: str
+) -> None:
+    with opened(browser, studio.url, width=NARROW, calm=True) as (page, _):
+        _settle(page)
+        studio.refined_seconds = 60
+        _type(page, "bubble_thickness", number)
+        page.locator("#figures:not([data-state=refined]):not([data-state=moving])").wait_for()
+        badge = page.locator("#state").bounding_box()
+        for each in page.locator("#figures .reading").all():
+            box = each.bounding_box()
+            assert badge["y"] + badge["height"] <= box["y"] + 1
+
+
+def test_scene_says_what_is_computed(page: Any, studio: PretendedStudio) -> None:
+    page.locator("#tab-forces").click()
+    studio.held = True
+    page.locator("#scene-run").click()
+    page.locator("#scene-status", has_text="Computing").wait_for()
+    studio.held = False
+    revision = int(page.locator("#angle").get_attribute("data-revision"))
+    for message, fraction in (("mesh 2", None), ("", 0.5)):
+        studio.say("working", revision=revision, what="scene", message=message, fraction=fraction)
+    page.locator("#scene-status", has_text="Computing… mesh 2, 50 %").wait_for()
 
 
 def test_scene_is_asked_for_with_its_keys_and_shown_as_a_picture(
@@ -352,6 +469,9 @@ def test_scene_is_asked_for_with_its_keys_and_shown_as_a_picture(
     page.locator("#scene-field-distance").fill("2,5")
     page.locator("#scene-run").click()
     page.locator("#scene-figures", has_text="1.23 N ± 4 %").wait_for()
+    notes = page.locator("#scene-notes li").all_inner_texts()
+    assert notes == ["At 0.05 MPa it slips.", "mass_g is large."]
+    assert page.locator("#scene-caption").inner_text() == "Darker: later."
     asked = studio.last("scene")
     assert asked["scene"] == "blocked" and asked["support"] == "wall" and asked["distance"] == 2.5
     width = page.locator("#scene-picture").evaluate(

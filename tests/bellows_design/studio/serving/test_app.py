@@ -14,8 +14,8 @@ from aiohttp import ClientSession, ClientWebSocketResponse, WSMsgType, WSServerH
 
 from bellows_design.errors import DesignError
 from bellows_design.studio.protocol import LARGEST_MESSAGE
-from bellows_design.studio.serving.app import Studio, application
-from bellows_design.studio.serving.security import Guard, require_loopback
+from bellows_design.studio.serving.app import MOST_PAGES, Studio, application
+from bellows_design.studio.serving.security import HEADERS, Guard, require_loopback
 from bellows_design.studio.sessions.lanes import Lanes
 from bellows_design.studio.workers.lane import Lane
 
@@ -109,6 +109,47 @@ def test_answers_forbid_foreign_scripts_frames_and_guesses_of_types(tmp_path: Pa
                 assert answer.headers["X-Content-Type-Options"] == "nosniff"
                 assert answer.headers["Referrer-Policy"] == "no-referrer"
                 assert answer.headers["Cache-Control"] == "no-store"
+
+    in_loop(tmp_path, check)
+
+
+@pytest.mark.parametrize("token", ["right", "wrong"])
+@pytest.mark.parametrize("path", ["/", "/session", "/nothing", "/assets/viewer.js"])
+def test_headers_are_the_same_whatever_is_answered_and_name_no_software(
+    path: str, token: str, tmp_path: Path
+) -> None:
+    async def check(studio: Studio, client: ClientSession) -> None:
+        given = studio.guard.token if token == "right" else token
+        upgrade = {
+            "Connection": "Upgrade", "Upgrade": "websocket", "Sec-WebSocket-Version": "13",
+            "Sec-WebSocket-Key": "dGhlIHNhbXBsZSBub25jZQ==",
+        }  # fmt: skip
+        headers = upgrade if path == "/session" else {}
+        url = address(studio, f"{path}?token={given}")
+        async with client.get(url, headers=headers) as answer:
+            assert "Server" not in answer.headers
+            for name, value in HEADERS.items():
+                assert answer.headers.getall(name) == [value]
+            assert len(answer.headers.getall("Content-Security-Policy")) == 1
+
+    in_loop(tmp_path, check)
+
+
+def test_a_page_too_many_is_told_so_and_takes_the_place_of_one_that_is_closed(
+    tmp_path: Path,
+) -> None:
+    async def check(studio: Studio, client: ClientSession) -> None:
+        socket = address(studio, f"/session?token={studio.guard.token}")
+        pages = [await client.ws_connect(socket) for _ in range(MOST_PAGES)]
+        async with client.ws_connect(socket) as refused:
+            said = await refused.receive()
+            assert said.type is WSMsgType.CLOSE
+            assert (said.data, "open already" in str(said.extra)) == (1013, True)
+        await pages.pop().close()
+        async with client.ws_connect(socket) as page:
+            assert (await page.receive_json())["type"] == "start"
+        for page in pages:
+            await page.close()
 
     in_loop(tmp_path, check)
 

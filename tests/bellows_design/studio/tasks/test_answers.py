@@ -7,6 +7,7 @@ from typing import Any
 import pytest
 from fakes import FakeEstimate, FakeEvaluation
 
+from bellows_design.design.overrides import with_overrides
 from bellows_design.design.shipped import load_design
 from bellows_design.studio.tasks.answers import answer_of
 from printers import PrintabilityReport, RuleResult
@@ -35,6 +36,14 @@ def test_verdict_counts_the_error_of_the_stress(
     found = answer(max_von_mises_mpa=stress, error_estimate=FakeEstimate(error))
     assert found["verdict"] == verdict
     assert bool(found["reasons"]) == (verdict != "pass")
+
+
+def test_scenes_that_approval_must_hold_are_told_to_be_judged_elsewhere() -> None:
+    assert not [text for text in answer()["warnings"] if "scene" in text]
+    design = with_overrides(DESIGN, ["limits.scenes=['blocked']"])
+    found = answer_of(design, FakeEvaluation(), "refined", "how", 1.0)
+    assert found["verdict"] == "pass"
+    assert [text for text in found["warnings"] if "“blocked” is judged by the whole run" in text]
 
 
 def test_without_a_print_check_the_verdict_is_about_the_load_alone() -> None:

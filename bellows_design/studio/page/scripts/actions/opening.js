@@ -1,7 +1,7 @@
 // Opening a shipped design or a TOML file: from a list, a file picker, or dropped on the page.
 
 import { byId, element, setText } from "../parts/elements.js";
-import { readable } from "../parameters/choice.js";
+import { readable } from "../parts/words.js";
 
 const LARGEST_BYTES = 1_000_000;
 

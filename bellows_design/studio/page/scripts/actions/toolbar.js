@@ -10,18 +10,19 @@ export class Toolbar {
     byId("undo").addEventListener("click", () => session.undo());
     byId("redo").addEventListener("click", () => session.redo());
     byId("reset").addEventListener("click", () => session.reset());
-    for (const type of ["start", "values", "history", "state"])
+    for (const type of ["start", "values", "history", "state", "connection"])
       session.addEventListener(type, () => this.#show());
     this.#show();
   }
 
   #show() {
-    const { start, isChanged, canUndo, canRedo, state } = this.#session;
+    const { start, isChanged, canUndo, canRedo, state, isConnected } = this.#session;
+    const isValid = start && state !== "invalid";
     byId("undo").disabled = !canUndo;
     byId("redo").disabled = !canRedo;
     byId("reset").disabled = !isChanged;
-    for (const id of ["save", "run"]) byId(id).disabled = !start || state === "invalid";
-    byId("pin").disabled = !start || state === "invalid";
+    for (const id of ["save", "run"]) byId(id).disabled = !isValid || !isConnected;
+    byId("pin").disabled = !isValid;
     if (!start) return;
     setText(byId("design-name"), start.name);
     byId("design-changed").hidden = !isChanged;

@@ -5,8 +5,8 @@ const LONGEST_WAIT_MS = 5000;
 const LENGTH_BYTES = 4;
 
 /**
- * Events: `open`; `lost` with detail `{failures, wait}`; `message` with detail `{header, payload}`,
- * where payload is an ArrayBuffer or null.
+ * Events: `lost` with detail `{failures, code, reason}`, the last two as the studio gave them;
+ * `message` with detail `{header, payload}`, where payload is an ArrayBuffer or null.
  */
 export class Connection extends EventTarget {
   #address;
@@ -28,9 +28,8 @@ export class Connection extends EventTarget {
     clearTimeout(this.#timer);
     const socket = new WebSocket(this.#address);
     socket.binaryType = "arraybuffer";
-    socket.addEventListener("open", () => this.#opened());
     socket.addEventListener("message", (event) => this.#received(event.data));
-    socket.addEventListener("close", () => this.#closed(socket));
+    socket.addEventListener("close", (event) => this.#closed(socket, event));
     this.#socket = socket;
   }
 
@@ -41,23 +40,20 @@ export class Connection extends EventTarget {
     return true;
   }
 
-  #opened() {
-    this.#failures = 0;
-    this.dispatchEvent(new CustomEvent("open"));
-  }
-
   #received(data) {
+    this.#failures = 0; // not when it opens: a studio that turns pages away does so then
     const detail =
       typeof data === "string" ? { header: JSON.parse(data), payload: null } : split(data);
     this.dispatchEvent(new CustomEvent("message", { detail }));
   }
 
-  #closed(socket) {
+  #closed(socket, { code, reason }) {
     if (socket !== this.#socket) return;
     const wait = Math.min(LONGEST_WAIT_MS, SHORTEST_WAIT_MS * 2 ** this.#failures);
     this.#failures += 1;
     this.#timer = setTimeout(() => this.start(), wait);
-    this.dispatchEvent(new CustomEvent("lost", { detail: { failures: this.#failures, wait } }));
+    const detail = { failures: this.#failures, code, reason };
+    this.dispatchEvent(new CustomEvent("lost", { detail }));
   }
 }
 

@@ -28,8 +28,9 @@ const ENDING = new Set(["change", "refine"]);
  * "refined", "invalid", "failed".
  *
  * Events: `start` (a design was opened), `values` (they changed), `state`, `rest`, `history`,
- * `asked_again` (no answer came in good time), `connection` with detail `{open, failures}`, and every message of the server under its type, with
- * detail `{header, payload}`.
+ * `asked_again` (no answer came in good time), `connection` with detail
+ * `{open, failures, code, reason}`, and every message of the server under its type, with detail
+ * `{header, payload}`.
  */
 export class Session extends EventTarget {
   #connection;
@@ -105,8 +106,9 @@ export class Session extends EventTarget {
     this.#restTimer = setTimeout(() => this.#rest(), REST_MS);
   }
 
-  /** From here to `endGesture` rests are one step of the history. */
+  /** From here to `endGesture` rests are one step of the history; what came before is another. */
   beginGesture() {
+    this.settle();
     this.#gestures += 1;
     this.#gesture = this.#gestures;
   }
@@ -322,7 +324,7 @@ export class Session extends EventTarget {
 
   #lost(detail) {
     this.#patience.end();
-    this.#emit("connection", { open: false, failures: detail.failures });
+    this.#emit("connection", { open: false, ...detail });
   }
 
   #forget() {

@@ -1,6 +1,7 @@
 // One of several named things: a material, a printer.
 
 import { element, option, setText } from "../parts/elements.js";
+import { readable } from "../parts/words.js";
 
 export class Choice {
   /** `choices`: names, or `{name, description}`. */
@@ -46,9 +47,4 @@ export class Choice {
     this.problem.hidden = !text;
     this.select.setAttribute("aria-invalid", String(Boolean(text)));
   }
-}
-
-/** A name as people write it. */
-export function readable(name) {
-  return name.replaceAll("_", " ");
 }

@@ -1,11 +1,7 @@
 // A number that follows from others unless it is given, such as how many bubbles fit.
 
 import { element } from "../parts/elements.js";
-
-const LABELS = {
-  number_of_bubbles: "as many as fit",
-  "limits.max_von_mises": "the material's own limit",
-};
+import { AUTOMATIC } from "../parts/words.js";
 
 /** Puts a box into `row` that leaves the number to the program; `show` follows the session. */
 export function optionalControl(session, row) {
@@ -16,7 +12,7 @@ export function optionalControl(session, row) {
     change: () => session.move(row.name, box.checked ? null : row.value),
   });
   row.range.before(
-    element("label", { class: "check", for: id }, box, LABELS[row.name] ?? "automatic"),
+    element("label", { class: "check", for: id }, box, AUTOMATIC[row.name] ?? "automatic"),
   );
   return {
     show() {

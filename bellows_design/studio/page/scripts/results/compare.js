@@ -2,7 +2,7 @@
 
 import { byId, element, setText } from "../parts/elements.js";
 import { fixed, shown } from "../model/numbers.js";
-import { readable } from "../parameters/choice.js";
+import { AUTOMATIC, readable } from "../parts/words.js";
 import { changedValues, same } from "../model/values.js";
 
 export class Compare {
@@ -85,14 +85,14 @@ export class Compare {
   #differences() {
     const changed = Object.keys(changedValues(this.#session.values, this.#pin.values));
     return changed.map((name) => {
-      const [before, now] = [this.#pin.values[name], this.#session.values[name]].map(text);
+      const [before, now] = [this.#pin.values[name], this.#session.values[name]].map((value) => text(name, value));
       return element("li", {}, `${readable(name)}: ${before} → ${now}`);
     });
   }
 }
 
-function text(value) {
-  if (value === null || value === undefined) return "none";
+function text(name, value) {
+  if (value === null || value === undefined) return AUTOMATIC[name] ?? "none";
   if (typeof value === "number") return shown(value);
   return typeof value === "string"
     ? readable(value)

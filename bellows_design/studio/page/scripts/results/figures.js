@@ -2,6 +2,7 @@
 
 import { element, setText } from "../parts/elements.js";
 import { fixed, shown, signed, withUnit } from "../model/numbers.js";
+import { capitalised } from "../parts/words.js";
 
 const BADGES = {
   waiting: "waiting for the studio",
@@ -70,7 +71,7 @@ export class Figures {
   }
 
   #badgeText(state) {
-    const lost = !this.#session.isConnected && ["moving", "computing", "waiting"].includes(state);
+    const lost = !this.#session.isConnected && ["moving", "computing"].includes(state);
     return lost ? "not connected" : BADGES[state];
   }
 
@@ -102,15 +103,15 @@ export class Figures {
     dataset.deg = String(answer.bending_angle_deg);
     dataset.revision = String(answer.revision);
     dataset.state = current ? answer.state : "old";
-    for (const each of [this.angle, this.stress, this.air])
-      each.note(current ? "" : " – out of date");
+    const note = current ? reached(answer) : "out of date";
+    for (const each of [this.angle, this.stress, this.air]) each.note(note && ` – ${note}`);
   }
 
   #working({ what, fraction, message }) {
     const { state } = this.#session;
-    const share = fraction ? ` ${Math.round(100 * fraction)} %` : "";
+    const share = fraction && fraction < 1 ? ` ${Math.round(100 * fraction)} %` : "";
     if (what === "preview" && state === "computing") setText(this.badge, `computing…${share}`);
-    if (what === "preview" && message && state === "computing") setText(this.how, message);
+    if (what === "preview" && message && state === "computing") setText(this.how, capitalised(message));
     if (what === "refine" && state === "computing") setText(this.badge, `refining…${share}`);
     if (what !== "refine" || state !== "preview") return;
     setText(this.badge, `preview, refining…${share}`);
@@ -192,8 +193,13 @@ class StressBar {
 
 /** How the figures were found, and that they are of a lower pressure where they are. */
 function sentence({ how, converged, message }) {
-  const found = how ? `${how[0].toUpperCase()}${how.slice(1)}.` : "";
-  return converged === false && message ? `${found} ${message}` : found;
+  const found = how ? `${capitalised(how)}.` : "";
+  return converged === false && message ? `${found} ${capitalised(message)}` : found;
+}
+
+/** The pressure that figures are of where the design's own was not reached. */
+function reached({ converged, pressure_mpa: pressure }) {
+  return converged === false ? `at ${shown(pressure, 3)} MPa only` : "";
 }
 
 function margin(value, percent, decimals) {
@@ -214,6 +220,7 @@ function spoken(answer) {
 }
 
 function explanation(state, problems, shownAnswer, connected) {
+  if (state === "waiting") return "";
   if (!connected) return "The figures follow once the studio answers again.";
   const old = shownAnswer ? " The figures are those of an earlier design." : "";
   if (state === "invalid") return (problems[0]?.message ?? "") + old;

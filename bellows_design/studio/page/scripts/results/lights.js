@@ -1,7 +1,7 @@
 // The printability rules as lights, and the verdict in a sentence.
 
 import { element, setText } from "../parts/elements.js";
-import { readable } from "../parameters/choice.js";
+import { readable } from "../parts/words.js";
 
 const ORDER = ["fail", "warn"];
 const FOLDED = new Set(["info", "pass"]);
@@ -12,7 +12,10 @@ const SENTENCES = {
   pass: (preview) =>
     preview ? "Holds, as far as the preview can say." : "Fit to be printed and to hold.",
   fail: (preview) => (preview ? "Would not be approved, by the preview:" : "Not approved:"),
-  undecided: () => "Too close to a limit to be decided at this accuracy:",
+  undecided: (preview) =>
+    preview
+      ? "Too close to a limit for the preview; the refined answer decides:"
+      : "Too close to a limit to be decided at this accuracy:",
   unknown: () => "Not yet known.",
 };
 

@@ -5,6 +5,7 @@ const GRAVITY = {
   label: "Gravity",
   choices: ["none", "down", "up", "forward", "backward"],
   value: "none",
+  meaning: "down: it lies as printed; forward: it hangs from its root",
 };
 const SIZES = {
   distance: { label: "Distance", unit: "mm", least: 0, most: 500 },
@@ -18,6 +19,14 @@ export const SCENES = {
     meaning: "Nothing around the finger: how it bends, under its own weight if you like.",
     fields: [GRAVITY],
   },
+  payload: {
+    label: "Payload",
+    meaning: "A mass hangs on the tip: how far is it lifted?",
+    fields: [
+      { name: "mass_g", label: "Mass", unit: "g", least: 0.1, most: 10000, value: 20 },
+      { ...GRAVITY, choices: GRAVITY.choices.slice(1), value: "down" },
+    ],
+  },
   blocked: {
     label: "Blocked",
     meaning: "The tip presses on a load cell or a wall, or is held: how strong is it?",
@@ -28,7 +37,13 @@ export const SCENES = {
         choices: ["load_cell", "wall", "held"],
         value: "load_cell",
       },
-      { name: "distance", ...SIZES.distance, value: 0, of: ["load_cell", "wall"] },
+      {
+        name: "distance",
+        ...SIZES.distance,
+        value: 0,
+        of: ["load_cell", "wall"],
+        meaning: "from the lower side at rest down to it",
+      },
       { name: "friction", ...SIZES.friction, value: 0, of: ["wall"] },
     ],
   },
@@ -43,10 +58,24 @@ export const SCENES = {
         choices: ["cylinder", "sphere", "box"],
         value: "cylinder",
       },
-      { name: "size", label: "Size", unit: "mm", least: 1, most: 500, value: 30 },
+      {
+        name: "size",
+        label: "Size",
+        unit: "mm",
+        least: 1,
+        most: 500,
+        value: 30,
+        meaning: "diameter, or of a box from face to face",
+      },
       { name: "mass_g", label: "Mass", unit: "g", least: 0.1, most: 10000, value: 20 },
       { name: "friction", ...SIZES.friction, value: 0.5 },
-      { name: "distance", ...SIZES.distance, least: 0.5, value: 16 },
+      {
+        name: "distance",
+        ...SIZES.distance,
+        least: 0.5,
+        value: 16,
+        meaning: "from a finger's lower side at rest to the gripper's axis",
+      },
       {
         name: "place",
         label: "Place along the finger",
@@ -54,6 +83,7 @@ export const SCENES = {
         least: 0,
         most: 1000,
         value: 35,
+        meaning: "of the object's middle, from the root",
       },
     ],
   },

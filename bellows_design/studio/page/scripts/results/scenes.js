@@ -1,8 +1,8 @@
 // Forces: the finger free, blocked, or gripping, as a picture with figures.
 
 import { byId, element, option, setText } from "../parts/elements.js";
-import { parsed, shown } from "../model/numbers.js";
-import { readable } from "../parameters/choice.js";
+import { parsed, shown, withUnit } from "../model/numbers.js";
+import { capitalised, readable } from "../parts/words.js";
 import { SCENES, keysOf } from "./scene_fields.js";
 
 export class Scenes {
@@ -11,6 +11,7 @@ export class Scenes {
   #inputs = new Map();
   #picture = null; // address of the picture that is shown
   #asked = null; // revision that was asked for
+  #stage = ""; // what is computed
 
   constructor(session) {
     this.#session = session;
@@ -49,14 +50,15 @@ export class Scenes {
 
   #row(field) {
     const id = `scene-field-${field.name}`;
+    const described = { id, "aria-describedby": field.meaning ? `${id}-meaning` : null };
     const input = field.choices
       ? element(
           "select",
-          { id, change: () => this.#showNeeded() },
+          { ...described, change: () => this.#showNeeded() },
           ...field.choices.map((name) => option(name, readable(name), name === field.value)),
         )
       : element("input", {
-          id,
+          ...described,
           type: "text",
           inputmode: "decimal",
           value: shown(field.value),
@@ -69,6 +71,7 @@ export class Scenes {
       { class: "scene-field", "data-field": field.name },
       element("label", { for: id }, field.label),
       element("span", { class: "entry" }, input, unit),
+      field.meaning ? element("p", { class: "meaning shown", id: `${id}-meaning` }, field.meaning) : null,
     );
   }
 
@@ -94,6 +97,7 @@ export class Scenes {
       return setText(this.status, "The studio is not connected.");
     this.#asked = this.#session.revision;
     this.button.disabled = true;
+    this.#stage = "";
     setText(this.status, "Computing…");
   }
 
@@ -104,8 +108,11 @@ export class Scenes {
     return number >= field.least && number <= field.most ? number : NaN;
   }
 
-  #take({ svg, figures, message, warnings }) {
-    this.#finish([message, ...(warnings ?? [])].filter(Boolean).join(" "));
+  #take({ svg, figures, message, warnings, caption }) {
+    this.#finish("");
+    const notes = [message, ...(warnings ?? [])].filter(Boolean).map(capitalised);
+    byId("scene-notes").replaceChildren(...notes.map((note) => element("li", {}, note)));
+    setText(byId("scene-caption"), caption ?? "");
     const blob = new Blob([svg], { type: "image/svg+xml" });
     const former = this.#picture;
     this.#picture = URL.createObjectURL(blob);
@@ -116,11 +123,11 @@ export class Scenes {
     byId("scene-result").classList.remove("stale");
   }
 
-  #working({ what, fraction }) {
+  #working({ what, fraction, message }) {
     if (what !== "scene") return;
-    const share =
-      fraction === null || fraction === undefined ? "" : ` ${Math.round(100 * fraction)} %`;
-    setText(this.status, `Computing…${share}`);
+    if (message) this.#stage = message;
+    const share = fraction && fraction < 1 ? `, ${Math.round(100 * fraction)} %` : "";
+    setText(this.status, `Computing… ${this.#stage}${share}`);
   }
 
   #failed({ what, message }) {
@@ -149,7 +156,7 @@ function rows(figures) {
       "div",
       { class: "scene-figure" },
       element("dt", {}, label),
-      element("dd", {}, `${number} ${unit ?? ""}${band}`),
+      element("dd", {}, withUnit(number, unit) + band),
     );
   });
 }
