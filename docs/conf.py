@@ -52,7 +52,6 @@ html_title = "bellows-design"
 html_show_sphinx = False
 html_copy_source = False
 html_theme_options = {"navigation_with_keys": True}
-pygments_style = "friendly"
 copybutton_exclude = ".linenos, .gp, .go"
 """Prompts and answers of an example are not copied, so that it can be pasted."""
 
