@@ -68,6 +68,7 @@ def setup(app):  # type: ignore[no-untyped-def]
     app.connect("source-read", read)
     app.connect("autodoc-skip-member", skipped)
     app.connect("autodoc-process-docstring", shortened, priority=900)  # after napoleon
+    app.connect("doctree-read", dashed)
 
 
 def read(app, name, source):  # type: ignore[no-untyped-def]
@@ -81,6 +82,15 @@ def shortened(app, what, name, member, options, lines):  # type: ignore[no-untyp
     """Types of attributes without the whole names of NumPy's arrays."""
     for long, short in TYPES.items():
         lines[:] = [re.sub(long, short, line) for line in lines]
+
+
+def dashed(app, doctree):  # type: ignore[no-untyped-def]
+    """Between the name and the meaning of a field a dash: Sphinx writes two hyphens there."""
+    from docutils import nodes
+
+    for text in list(doctree.findall(nodes.Text)):
+        if text.astext() == " -- ":
+            text.parent.replace(text, nodes.Text(" – "))
 
 
 def skipped(app, kind, name, member, skip, options):  # type: ignore[no-untyped-def]
