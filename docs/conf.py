@@ -86,11 +86,9 @@ def shortened(app, what, name, member, options, lines):  # type: ignore[no-untyp
 
 def dashed(app, doctree):  # type: ignore[no-untyped-def]
     """Between the name and the meaning of a field a dash: Sphinx writes two hyphens there."""
-    from docutils import nodes
-
-    for text in list(doctree.findall(nodes.Text)):
-        if text.astext() == " -- ":
-            text.parent.replace(text, nodes.Text(" – "))
+    for node in list(doctree.findall()):
+        if not node.children and node.astext() == " -- ":
+            node.parent.replace(node, type(node)(" – "))
 
 
 def skipped(app, kind, name, member, skip, options):  # type: ignore[no-untyped-def]
