@@ -52,7 +52,6 @@ html_title = "bellows-design"
 html_show_sphinx = False
 html_copy_source = False
 html_theme_options = {"navigation_with_keys": True}
-pygments_style = "friendly"
 copybutton_exclude = ".linenos, .gp, .go"
 """Prompts and answers of an example are not copied, so that it can be pasted."""
 
@@ -69,6 +68,7 @@ def setup(app):  # type: ignore[no-untyped-def]
     app.connect("source-read", read)
     app.connect("autodoc-skip-member", skipped)
     app.connect("autodoc-process-docstring", shortened, priority=900)  # after napoleon
+    app.connect("doctree-read", dashed)
 
 
 def read(app, name, source):  # type: ignore[no-untyped-def]
@@ -82,6 +82,13 @@ def shortened(app, what, name, member, options, lines):  # type: ignore[no-untyp
     """Types of attributes without the whole names of NumPy's arrays."""
     for long, short in TYPES.items():
         lines[:] = [re.sub(long, short, line) for line in lines]
+
+
+def dashed(app, doctree):  # type: ignore[no-untyped-def]
+    """Between the name and the meaning of a field a dash: Sphinx writes two hyphens there."""
+    for node in list(doctree.findall()):
+        if not node.children and node.astext() == " -- ":
+            node.parent.replace(node, type(node)(" – "))
 
 
 def skipped(app, kind, name, member, skip, options):  # type: ignore[no-untyped-def]

@@ -18,9 +18,10 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 SHOWN = re.compile(
-    r"^```sh\n(?P<commands>.*?)^```\n\s*"
-    r"(?P<comment><!-- output(?:: last (?P<last>\d+))? -->)\n```text\n(?P<text>.*?)^```$",
-    re.MULTILINE | re.DOTALL,
+    r"^```sh\n(?P<commands>(?:(?!```).*\n)*)```\n\s*"
+    r"(?P<comment><!-- output(?:: last (?P<last>\d+))? -->)\n"
+    r"```text\n(?P<text>(?:(?!```).*\n)*)```$",
+    re.MULTILINE,
 )
 WIDTH = 80
 """Columns of the terminal that the output is for."""

@@ -14,6 +14,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from functools import partial
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import typer
@@ -127,6 +128,8 @@ def explained(error: BaseException) -> tuple[str, int]:
         return ended_by(interruption)
     if isinstance(error, CannotWrite):
         return f"{error}.", BAD_INPUT
+    if isinstance(error, FileNotFoundError) and isinstance(error.filename, str):
+        return _missing_file(Path(error.filename)), BAD_INPUT
     if isinstance(error, OSError) and error.strerror:
         place = f"{error.filename}: " if error.filename else ""
         return f"{place}{error.strerror}.", BAD_INPUT
@@ -138,6 +141,12 @@ def explained(error: BaseException) -> tuple[str, int]:
         f"(set {TRACEBACK}=1 to see where; please report it).",
         INTERNAL,
     )
+
+
+def _missing_file(path: Path) -> str:
+    from bellows_design.validation.quoting import near_file, quoted_path
+
+    return f"there is no file {quoted_path(path)}{near_file(path) or '.'}"
 
 
 def _status_of_user_error(error: BaseException) -> int | None:

@@ -16,20 +16,8 @@ import typer
 from bellows_design.analysis.model_names import ModelName
 from bellows_design.cli import actions
 from bellows_design.cli.answer import Answer, answer
-from bellows_design.cli.checking.options import (
-    Checked,
-    CheckOptions,
-    FilamentName,
-    KeepGcode,
-    Openings,
-    OrientationChoice,
-    Picture,
-    RequireSlicer,
-    Slice,
-    Up,
-)
+from bellows_design.cli.checking.command import check
 from bellows_design.cli.comparing.command import compare
-from bellows_design.cli.completion.options import complete_schema, complete_source
 from bellows_design.cli.exchange.command import mesh, plate
 from bellows_design.cli.force.command import force
 from bellows_design.cli.layout import panels
@@ -74,7 +62,7 @@ from bellows_design.cli.options import (
     YieldStrength,
 )
 from bellows_design.cli.reporting.command import report
-from bellows_design.cli.starting.kinds import Kind, Listed
+from bellows_design.cli.starting.command import init, list_known, schema
 from bellows_design.cli.studies.optimize_command import optimize
 from bellows_design.cli.studio.command import studio
 from bellows_design.cli.study import study
@@ -93,6 +81,31 @@ app = typer.Typer(
     no_args_is_help=True,
     pretty_exceptions_enable=False,
 )
+app.command(
+    "list",
+    rich_help_panel=panels.START,
+    epilog=examples("bellows list", "bellows list materials", "bellows list keys"),
+)(list_known)
+app.command(
+    rich_help_panel=panels.START,
+    epilog=examples(
+        "bellows init design my_finger.toml",
+        "bellows init design my_finger.toml --from prototype_2",
+        "bellows init printer my_printer.toml --from prusa_mk4",
+    ),
+)(init)
+app.command(
+    rich_help_panel=panels.PRINT,
+    epilog=examples(
+        "bellows check my_finger.toml --printer bambu_a1",
+        "bellows check gripper.step --orientation auto",
+        "bellows check gripper.stl --opening 0,12.5,8 --slice --picture leak.png",
+    ),
+)(check)
+app.command(
+    rich_help_panel=panels.HOUSEKEEPING,
+    epilog=examples("bellows schema", "bellows schema evaluate", "bellows schema study sweep"),
+)(schema)
 app.add_typer(study, name="study", rich_help_panel=panels.STUDY)
 app.command(
     rich_help_panel=panels.STUDY,
@@ -162,60 +175,6 @@ def _root(
 
 
 @app.command(
-    "list",
-    rich_help_panel=panels.START,
-    epilog=examples("bellows list", "bellows list materials", "bellows list keys"),
-)
-def list_known(
-    what: Annotated[
-        Listed,
-        typer.Argument(
-            metavar="WHAT", help="designs, materials, printers, filaments, scenes, keys or all."
-        ),
-    ] = Listed.DESIGNS,
-    as_json: AsJson = False,
-) -> None:
-    """Name what ships: designs, materials, printers, filaments, scenes."""
-    from bellows_design.cli.starting.listing import list_known
-
-    answer(lambda: list_known(what), as_json)
-
-
-@app.command(
-    rich_help_panel=panels.START,
-    epilog=examples(
-        "bellows init design my_finger.toml",
-        "bellows init design my_finger.toml --from prototype_2",
-        "bellows init printer my_printer.toml --from prusa_mk4",
-    ),
-)
-def init(
-    kind: Annotated[
-        Kind,
-        typer.Argument(metavar="KIND", help="design, scene, printer, filament, material or body."),
-    ],
-    file: Annotated[Path, typer.Argument(metavar="FILE", help="File to write: .toml.")],
-    source: Annotated[
-        str | None,
-        typer.Option(
-            "--from",
-            metavar="NAME",
-            help="Begin with the values of that design, printer …: a name, or a TOML file.",
-            autocompletion=complete_source,
-        ),
-    ] = None,
-    force: Annotated[
-        bool, typer.Option("--force", help="Replace the file if it is there.")
-    ] = False,
-    as_json: AsJson = False,
-) -> None:
-    """Write a commented design, printer, material … to start from."""
-    from bellows_design.cli.starting.init import init as write
-
-    answer(lambda: write(kind, file, force, source), as_json)
-
-
-@app.command(
     rich_help_panel=panels.PRINT,
     epilog=examples(
         "bellows design finger -o finger.stl",
@@ -236,39 +195,6 @@ def design(
     """Build the printed part and write it as STL, 3MF or STEP."""
     options = DesignOptions(name, tuple(settings or ()))
     answer(lambda: actions.design(options, output, with_settings), as_json, quiet)
-
-
-@app.command(
-    rich_help_panel=panels.PRINT,
-    epilog=examples(
-        "bellows check my_finger.toml --printer bambu_a1",
-        "bellows check gripper.step --orientation auto",
-        "bellows check gripper.stl --opening 0,12.5,8 --slice --picture leak.png",
-    ),
-)
-def check(
-    name: Checked,
-    printer: Printer = None,
-    filament: FilamentName = None,
-    opening: Openings = None,
-    up: Up = None,
-    orientation: OrientationChoice = None,
-    slice_it: Slice = False,
-    require_slicer: RequireSlicer = False,
-    picture: Picture = None,
-    keep_gcode: KeepGcode = None,
-    settings: Settings = None,
-    quiet: Quiet = False,
-    as_json: AsJson = False,
-) -> None:
-    """Check a design, or a part of any program, against the rules of a printer."""
-    from bellows_design.cli.checking.check import check as check_part
-
-    options = CheckOptions(
-        name, tuple(settings or ()), printer, filament, tuple(opening or ()), up, orientation,
-        slice_it, require_slicer, picture, keep_gcode,
-    )  # fmt: skip
-    answer(lambda: check_part(options), as_json, quiet)
 
 
 @app.command(
@@ -391,26 +317,6 @@ def doctor(as_json: AsJson = False) -> None:
     from bellows_design.cli.doctor.answer import doctor as examine
 
     answer(examine, as_json)
-
-
-@app.command(
-    rich_help_panel=panels.HOUSEKEEPING,
-    epilog=examples("bellows schema", "bellows schema evaluate", "bellows schema study sweep"),
-)
-def schema(
-    command: Annotated[
-        list[str] | None,
-        typer.Argument(
-            metavar="COMMAND",
-            help="A command, error, or a file of an export: manifest.json.",
-            autocompletion=complete_schema,
-        ),
-    ] = None,
-) -> None:
-    """Print the JSON Schema of what a command answers with --json; without one name them all."""
-    from bellows_design.cli.starting.schemas import schema as show
-
-    answer(lambda: show(command or ()), bool(command))
 
 
 @app.command(

@@ -47,5 +47,8 @@ def _number(part: str, text: str) -> float:
     except ValueError:
         value = math.nan
     if not math.isfinite(value):
-        raise DesignError(f"--pressure {quoted(text)}: {quoted(part)} is no number of MPa.")
+        from printers.toml_errors import value_hint  # not at the start: it comes with NumPy
+
+        reason = value_hint(part.strip(), "MPa") or f"{quoted(part)} is no number of MPa"
+        raise DesignError(f"--pressure {quoted(text)}: {reason}.")
     return value

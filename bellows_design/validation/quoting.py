@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 _ESCAPE = re.compile(r"(?:\x1b\[|\x9b)[0-?]*[ -/]*[@-~]")
@@ -20,6 +20,8 @@ _LONGEST_QUOTE = 60
 _MOST_NAMED = 13
 _LONGEST_COMPARED = 200
 _MOST_BESIDE = 1000
+_AS_NEAR = 0.12
+"""Similarity, of at most 1, by which a word may be farther than the nearest and still be named."""
 
 
 def quoted(value: object) -> str:
@@ -60,18 +62,27 @@ def did_you_mean(unknown: str, known: Iterable[str]) -> str:
 
     A dotted word is also compared by its last part: ``pressure`` finds ``load.pressure``.
     """
-    import difflib
-
     words = list(known)
     unknown = unknown[:_LONGEST_COMPARED]
     last = unknown.rsplit(".", 1)[-1]
     by_part = {word.rsplit(".", 1)[-1]: word for word in reversed(words)}
-    close = difflib.get_close_matches(unknown, words, n=3, cutoff=0.6)
-    close += [by_part[part] for part in difflib.get_close_matches(last, by_part, n=3, cutoff=0.7)]
+    close = _nearest(unknown, words, 0.6)
+    close += [by_part[part] for part in _nearest(last, by_part, 0.7)]
     if close:
         return f"; did you mean {' or '.join(dict.fromkeys(close))}?"
     more = f" and {len(words) - _MOST_NAMED} more" if len(words) > _MOST_NAMED else ""
     return f"; known are {', '.join(words[:_MOST_NAMED])}{more}."
+
+
+def _nearest(unknown: str, words: Iterable[str], cutoff: float) -> list[str]:
+    """At most three words of at least this similarity, all nearly as near as the nearest."""
+    import difflib
+
+    close = difflib.get_close_matches(unknown, words, n=3, cutoff=cutoff)
+    likeness = [difflib.SequenceMatcher(None, word, unknown).ratio() for word in close]
+    return [
+        word for word, like in zip(close, likeness, strict=True) if like > likeness[0] - _AS_NEAR
+    ]
 
 
 def near(unknown: str, known: Iterable[str]) -> str:
@@ -83,14 +94,25 @@ def near(unknown: str, known: Iterable[str]) -> str:
 
 
 def near_file(path: Path) -> str:
-    """``; did you mean a?`` for the file or folder beside ``path`` whose name is closest to its."""
+    """``; did you mean a?`` for the file or folder beside ``path`` whose name is closest to its.
+
+    A suffix that both have makes no two names alike.
+    """
     try:
-        beside = [each.name for each in path.parent.iterdir() if not each.name.startswith(".")]
+        beside = [each for each in path.parent.iterdir() if not each.name.startswith(".")]
     except (OSError, ValueError):  # ValueError: a null byte in the path
         return ""
-    hint = near(path.name, beside[:_MOST_BESIDE])
-    name = hint.removeprefix("; did you mean ").removesuffix("?")
+    others = [each for each in beside[:_MOST_BESIDE] if each.name != path.name]
+    alike = {each.stem: each.name for each in others if each.suffix == path.suffix}
+    rest = {each.name: each.name for each in others if each.suffix != path.suffix}
+    name = _nearest_of(path.stem, alike) or _nearest_of(path.name, rest)
     return f"; did you mean {quoted_path(path.parent / name)}?" if name else ""
+
+
+def _nearest_of(unknown: str, names: Mapping[str, str]) -> str | None:
+    """What stands behind the key nearest to ``unknown``; None if none is close."""
+    hint = near(unknown, names)
+    return names.get(hint.removeprefix("; did you mean ").removesuffix("?"))
 
 
 def _represented(value: object) -> str:

@@ -50,6 +50,8 @@ def sealed_manifest(folder: Path) -> tuple[dict[str, Any], bytes] | FileCheck:
     Raises ``DesignError`` if ``folder`` is no export: no folder, or one without a manifest.
     """
     path = folder / MANIFEST
+    if folder.is_file():
+        raise DesignError(f"{quoted_path(folder)} is a file; an export is a folder.")
     if not folder.is_dir():
         raise DesignError(f"there is no folder {quoted_path(folder)}{near_file(folder) or '.'}")
     if path.is_symlink() or not path.is_file():

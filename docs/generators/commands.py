@@ -46,7 +46,7 @@ def _section(name: str, command: Any) -> str:
     visible = [given for given in command.params if not getattr(given, "hidden", False)]
     arguments = [given for given in visible if given.param_type_name == "argument"]
     options = [given for given in visible if given.param_type_name == "option"]
-    usage = " ".join([name, "[OPTIONS]" * bool(options), *(_metavar(a) for a in arguments)])
+    usage = " ".join([name, *["[OPTIONS]"][: len(options)], *map(_in_usage, arguments)])
     return "\n".join(
         [
             f"## `{name}`\n",
@@ -60,6 +60,11 @@ def _section(name: str, command: Any) -> str:
 
 def _metavar(given: Any) -> str:
     return given.metavar or (given.human_readable_name or given.name).upper()
+
+
+def _in_usage(argument: Any) -> str:
+    """An argument as the usage in the terminal has it."""
+    return " ".join(argument.get_usage_pieces(None))
 
 
 def _help(given: Any) -> str:

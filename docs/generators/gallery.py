@@ -31,7 +31,7 @@ def _section(program: Path) -> str:
         [
             f"## {re.sub(r'[.:]$', '', title)}\n",
             f"![{title}](../{picture})\n" if picture else "",
-            f"{_indented_as_blocks(about.strip())}\n",
+            f"{_indented_as_blocks(about)}\n",
             f"[`{program.name}`](../../examples/{program.name})\n",
             f":::{{dropdown}} Source\n\n```python\n{source}```\n:::\n",
         ]
@@ -43,6 +43,6 @@ def _indented_as_blocks(text: str) -> str:
     return re.sub(
         r"(?:^    .*\n?)+",
         lambda code: f"```sh\n{re.sub(r'^    ', '', code[0], flags=re.MULTILINE).rstrip()}\n```\n",
-        re.sub(r"``", "`", text),
+        re.sub(r"``", "`", text.strip("\n")),
         flags=re.MULTILINE,
     )

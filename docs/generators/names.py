@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import re
 from collections.abc import Iterator
 from importlib import import_module
 from types import ModuleType
@@ -26,6 +27,9 @@ HOMES = {"RULES": "printers.rule_table.RULES"}
 """Values, whose descriptions stand in the module that defines them."""
 
 
+INDENTED = re.compile(r"(?<!::\n\n)^(?:    .*\n(?:\n(?=    ))?)+", re.MULTILINE)
+
+
 def public_names(package: ModuleType) -> tuple[str, ...]:
     """Names that a package offers, but for its version; of a module those that it defines."""
     defined = (name for name, found in vars(package).items() if _of(package, found))
@@ -43,8 +47,14 @@ def pages() -> Iterator[tuple[str, str]]:
     for name, title in PACKAGES.items():
         package = import_module(name)
         head = f"``{name}``"
-        lines = [head, "=" * len(head), "", f"{title}.", "", inspect.getdoc(package) or "", ""]
+        about = with_code(inspect.getdoc(package) or "")
+        lines = [head, "=" * len(head), "", f"{title}.", "", about, ""]
         yield _page(name), "\n".join([*lines, *_entries(name, package, described)])
+
+
+def with_code(text: str) -> str:
+    """A docstring whose indented lines are code, where reStructuredText would see a quotation."""
+    return INDENTED.sub(r"::\n\n\g<0>", f"{text}\n")
 
 
 def _page(package: str) -> str:

@@ -29,6 +29,13 @@ def test_an_output_is_replaced_by_the_last_lines_of_the_new_one() -> None:
     assert len(shown.splitlines()) == 2 and "old" not in shown
 
 
+def test_commands_without_an_output_are_not_run() -> None:
+    page = "```sh\nbellows studio finger\n```\n\nprints an address.\n\n"
+    page += "```sh\nbellows list\n```\n\n<!-- output -->\n```text\nold\n```\n"
+    (found,) = SHOWN.finditer(page)
+    assert found["commands"] == "bellows list\n" and found["text"] == "old\n"
+
+
 @pytest.mark.slow
 def test_the_commands_of_the_tutorial_print_what_stands_there() -> None:
     assert words(rerun(TUTORIAL)) == words(TUTORIAL)

@@ -182,8 +182,7 @@ class CheckOptions:
     def _require_known_file(self) -> None:
         known = (".toml", *PARTS, *GCODE)
         hint = near(self.suffix, known)
-        is_file = self.suffix not in ("", ".toml") and (hint or Path(self.name).is_file())
-        if self.is_design and is_file:
+        if self.is_design and self.suffix not in ("", ".toml"):
             raise DesignError(
                 f"{quoted(self.name)} is no design and no part: its name must end in "
                 f"{', '.join(known)}{hint or '.'}"

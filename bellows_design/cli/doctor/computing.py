@@ -74,7 +74,8 @@ def processors(tried: Mapping[str, Tried]) -> Finding:
 
     count, usable = os.cpu_count() or 1, _usable()
     said, _ = _answer(tried, "compiler", "numba")
-    threads = f", {said['threads']} threads of numba" if "threads" in said else ""
+    number = said.get("threads")
+    threads = f", {number} thread{'s' * (number != 1)} of numba" if number else ""
     limited = "" if usable == count else f", {usable} of them for this process"
     shown = f"{processor()}, {count} processors{limited}{threads}"
     if hasattr(os, "getloadavg") and os.getloadavg()[0] > 2 * count:

@@ -11,13 +11,14 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from bellows_design.cli.doctor.finding import Finding
-from bellows_design.validation.quoting import did_you_mean, quoted, shown
+from bellows_design.validation.quoting import near, quoted, shown
 
 GROUP = "places"
 GIB = 2**30
 LEAST_FREE_GIB = 0.5
 """GiB on a disk, below which exports and caches may fill it."""
 
+PREFIX = "BELLOWS_"
 VARIABLES = ("BELLOWS_CACHE", "BELLOWS_SLICER", "BELLOWS_TRACEBACK")
 """That this program reads."""
 
@@ -87,13 +88,20 @@ def encoding() -> Finding:
 
 def variables() -> Iterator[Finding]:
     """Variables of this program that are set; those that it does not know."""
-    for name in sorted(each for each in os.environ if each.startswith("BELLOWS_")):
+    for name in sorted(each for each in os.environ if each.startswith(PREFIX)):
         value = quoted(shown(os.environ[name], LONGEST_VALUE))
         if name in VARIABLES:
             yield Finding("environment", name, "ok", value)
         else:
-            hint = did_you_mean(name, VARIABLES).lstrip("; ")
-            yield Finding("environment", name, "warn", f"{value}, which nothing reads", hint)
+            said = f"{value}, which this program does not read"
+            yield Finding("environment", name, "warn", said, _variable_near(name))
+
+
+def _variable_near(name: str) -> str:
+    """The variable that may be meant, by what follows the beginning that all have."""
+    known = {each.removeprefix(PREFIX): each for each in VARIABLES}
+    hint = near(name.removeprefix(PREFIX), known).removeprefix("; did you mean ").rstrip("?")
+    return f"did you mean {known[hint]}?" if hint else f"it reads {', '.join(VARIABLES)}"
 
 
 def _unwritable(folder: Path) -> str:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Sequence
+from functools import partial
 from typing import Any
 
 from typer.core import TyperGroup
@@ -26,7 +27,7 @@ class Commands(TyperGroup):
     def __init__(self, **settings: Any) -> None:
         super().__init__(**settings)
         for command in (self, *self.commands.values()):
-            _say_nothing_of_the_values_of(command.params)
+            _show_plainly(command.params)
 
     def list_commands(self, ctx: Any) -> list[str]:
         """Names by panel; within a panel in the order of use."""
@@ -42,7 +43,7 @@ class Commands(TyperGroup):
     def get_params(self, ctx: Any) -> list[Any]:
         """The parameters with ``--help``, which is a flag like others."""
         found = list(super().get_params(ctx))
-        _say_nothing_of_the_values_of(found)
+        _show_plainly(found)
         return found
 
     def resolve_command(self, ctx: Any, args: list[str]) -> Any:
@@ -50,7 +51,7 @@ class Commands(TyperGroup):
         self.suggest_commands = False  # our sentence does
         found = super().resolve_command(ctx, args)
         if found[1] is not None:
-            _say_nothing_of_the_values_of(found[1].get_params(ctx))
+            _show_plainly(found[1].get_params(ctx))
         above = "" if ctx.parent is None else f"{ctx.info_name} "
         remember(f"{above}{found[0]}")
         return found
@@ -85,8 +86,18 @@ class Commands(TyperGroup):
         return status
 
 
-def _say_nothing_of_the_values_of(parameters: Sequence[Any]) -> None:
-    """Flags have none."""
+def _show_plainly(parameters: Sequence[Any]) -> None:
+    """Flags have no values; of an argument its name says what it is, and its type nothing more."""
     for parameter in parameters:
         if getattr(parameter, "is_flag", False) and parameter.metavar is None:
             parameter.metavar = ""
+        if parameter.param_type_name == "argument":
+            parameter.display_type_rich = lambda ctx: ""
+            parameter.get_usage_pieces = partial(_in_usage, parameter)
+
+
+def _in_usage(argument: Any, ctx: Any) -> list[str]:
+    """The argument as the usage has it: in brackets if it may be left out, never in braces."""
+    name = str(argument.metavar or argument.name.upper()).removesuffix("...")
+    name = name if argument.required else f"[{name}]"
+    return [f"{name}{'...' * (argument.nargs != 1)}"]

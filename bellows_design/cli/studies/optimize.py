@@ -17,6 +17,7 @@ from bellows_design.cli.surroundings.environment import require_working_folder
 from bellows_design.cli.surroundings.memory import EVALUATION, require_address_space
 from bellows_design.cli.surroundings.solving import solving
 from bellows_design.errors import DesignError
+from bellows_design.validation.quoting import quoted, quoted_path
 
 if TYPE_CHECKING:
     from bellows_design.design.design import Design
@@ -94,12 +95,13 @@ class OptimumFiles:
     def require(self) -> None:
         """Refuse a folder that cannot be written, by trying it. Raises ``DesignError``."""
         if self.folder.exists() and not self.folder.is_dir():
-            raise DesignError(f"{str(self.folder)!r} is a file, not a folder to write to.")
+            raise DesignError(f"{quoted_path(self.folder)} is a file, not a folder to write to.")
         if not self.folder.parent.is_dir():
-            raise DesignError(f"there is no folder {str(self.folder.parent)!r} to write to.")
+            raise DesignError(f"there is no folder {quoted_path(self.folder.parent)} to write to.")
         if self.folder.is_dir() and any(self.folder.iterdir()) and not self.results.is_file():
             raise DesignError(
-                f"{str(self.folder)!r} holds other files; name a folder of its own for the optimum."
+                f"{quoted_path(self.folder)} holds other files; name a folder of its own for the "
+                "optimum."
             )
         if self.plot is not None and self.plot.parent != self.folder:
             require_plot(self.plot)
@@ -124,10 +126,12 @@ def counts(name: str, text: str | None, least: int, most: int) -> tuple[int, ...
             low, high = int(first), int(last if dash else first)
         except ValueError:
             raise DesignError(
-                f"--{name} is {text!r} but must be whole numbers, such as 3,4 or 7-10."
+                f"--{name} is {quoted(text)} but must be whole numbers, such as 3,4 or 7-10."
             ) from None
         if not least <= low <= high <= most:
-            raise DesignError(f"--{name} is {text!r} but must lie between {least} and {most}.")
+            raise DesignError(
+                f"--{name} is {quoted(text)} but must lie between {least} and {most}."
+            )
         found.update(range(low, high + 1))
     return tuple(sorted(found))
 

@@ -34,6 +34,7 @@ DATA = str(Path(__file__).parents[1] / "data" / "treloar_1944.csv")
         (["evaluate", "finger", "--vtu", "x.vtk"], "“x.vtu”"),
         (["study", "sweep", "finger", "--vary", "buble_width=1:2:3"], "bubble_width"),
         (["verify", "exprts"], "“exports”"),
+        (["check", "--quiet", "tensil.stl"], "“tensile.stl”"),
         (["fit", "tensile.csw"], "“tensile.csv”"),
         (["fit", DATA, "--model", "ogden4"], "ogden3"),
         (["fit", DATA, "--branch", "frist"], "first"),
@@ -53,9 +54,17 @@ def test_what_is_near_is_named(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     (tmp_path / "exports").mkdir()
-    for name in ("my_design.toml", "tensile.csv"):
+    for name in ("my_design.toml", "tensile.csv", "tensile.stl"):
         (tmp_path / name).write_text("")
     (tmp_path / "my_scene.toml").write_text('kind = "blocked"\nsuport = "wall"\n')
     (tmp_path / "my_printer.toml").write_text('name="p"\nextends="prusa_i3"\nnozle_diameter=0.4\n')
     status, _, err = bellows(*arguments)
     assert status == 2 and f"did you mean {near}" in err and err.count("\n") == 1
+
+
+def test_a_file_where_an_export_is_asked_for_is_called_one(
+    bellows: Bellows, tmp_path: Path
+) -> None:
+    (tmp_path / "finger.stl").touch()
+    status, _, err = bellows("verify", str(tmp_path / "finger.stl"))
+    assert status == 2 and "is a file; an export is a folder." in err

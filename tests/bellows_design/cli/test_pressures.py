@@ -45,6 +45,8 @@ def test_as_many_pressures_as_a_curve_needs() -> None:
         ("nan", "“nan” is no number"),
         ("inf", "“inf” is no number"),
         ("0.1:b:0.1", "“b” is no number"),
+        ("0.5bar", "0.5bar is 0.05 MPa: write 0.05, in MPa"),
+        ("0.02:100 kPa:0.02", "100 kPa is 0.1 MPa: write 0.1, in MPa"),
         ("0:1:0.1", "must go away from 0 MPa"),
         ("-0.1:0.1:0.1", "must go away from 0 MPa"),
         ("0.1:0.02:0.01", "START <= STOP"),

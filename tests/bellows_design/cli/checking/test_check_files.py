@@ -214,7 +214,7 @@ def test_a_part_of_a_size_that_cannot_be_meant_is_named(
         ("part.gcode", (), "--opening X,Y,Z,DIAMETER"),
         ("part.gcode", ("--opening", "1,2,3"), "--opening X,Y,Z,DIAMETER"),
         ("part.gcode", ("--opening", "1,2,3,4", "--slice"), "sliced already"),
-        ("part.stl", (), "No such file"),
+        ("part.stl", (), "there is no file “part.stl”"),
     ],
 )
 def test_what_means_nothing_for_this_input_is_refused(
@@ -226,6 +226,8 @@ def test_what_means_nothing_for_this_input_is_refused(
 
 def test_a_file_of_another_kind_is_told_what_is_read(bellows: Bellows, tmp_path: Path) -> None:
     status, _, err = bellows("check", written(tmp_path / "part.obj", b"v 0 0 0"))
+    assert status == 2 and ".stl, .3mf, .step" in err
+    status, _, err = bellows("check", "that_is_not_there.obj")
     assert status == 2 and ".stl, .3mf, .step" in err
 
 

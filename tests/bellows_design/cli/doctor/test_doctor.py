@@ -173,9 +173,11 @@ def test_every_probe_finds_its_library_well_here(name: str) -> None:
 
 def test_variables_that_nothing_reads_are_named(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("BELLOWS_CAHCE", "/somewhere")
+    monkeypatch.setenv("BELLOWS_OTHER", "1")
     found = {each.name: each for each in places.variables()}
     assert found["BELLOWS_CAHCE"].verdict == "warn"
-    assert "BELLOWS_CACHE" in found["BELLOWS_CAHCE"].mend
+    assert found["BELLOWS_CAHCE"].mend == "did you mean BELLOWS_CACHE?"
+    assert found["BELLOWS_OTHER"].mend.startswith("it reads BELLOWS_CACHE, ")
     assert found["BELLOWS_SLICER"].verdict == "ok"
 
 

@@ -66,6 +66,25 @@ def test_the_help_of_a_command_gives_flags_no_value(bellows: Bellows, command: s
     assert status == 0 and "--json" in out and "<bool>" not in out
 
 
+@pytest.mark.parametrize(
+    ("command", "usage"),
+    [
+        ("evaluate", "evaluate [OPTIONS] DESIGN"),
+        ("init", "init [OPTIONS] KIND FILE"),
+        ("list", "list [OPTIONS] [WHAT]"),
+        ("schema", "schema [OPTIONS] [COMMAND]..."),
+        ("plate", "plate [OPTIONS] DESIGN..."),
+        ("study sweep", "study sweep [OPTIONS] DESIGN"),
+    ],
+)
+def test_arguments_are_shown_by_their_names_alone(
+    command: str, usage: str, bellows: Bellows, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("COLUMNS", "60")
+    _, out, _ = bellows(*command.split(), "--help")
+    assert f" {usage} " in out and not {"<str>", "<design|"} & set(out.split())
+
+
 def test_within_a_panel_commands_stand_in_the_order_of_use() -> None:
     shown = GROUP.list_commands(None)
     assert sorted(shown) == sorted(ORDER_OF_USE)
