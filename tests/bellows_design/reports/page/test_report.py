@@ -38,10 +38,20 @@ def test_the_head_states_verdict_figures_and_their_errors() -> None:
     assert f"{printed.mass:.1f} g" in text and f"over {printed.least_hours:.1f} h" in text
 
 
+@pytest.mark.parametrize(
+    ("angle", "said"),
+    [(60.0, "turned to the angle of the finest"), (61.0, "Shapes, angles and colours are those")],
+)
+def test_the_shape_says_whose_angle_it_has(angle: float, said: str) -> None:
+    found = findings(evaluation=made_up(design_of(), bending_angle_deg=angle))
+    assert said in read(found).text
+
+
 def test_without_an_estimate_none_is_shown() -> None:
     estimate = FakeEstimate(None, None)
     text = read(findings(evaluation=made_up(design_of(), error_estimate=estimate))).text
     assert "error not estimated" in text and "±" not in text.partition("design digest")[0]
+    assert "Without a band" in text and "The band is" not in text
 
 
 def test_a_refused_design_names_all_reasons_and_what_is_not_judged() -> None:
