@@ -33,6 +33,7 @@ WIDE, HEIGHT, SHOWN = 1100, 1500, 520
 """px of the window, and the height of each page in the picture."""
 
 COLOURS = 256
+"""Of the picture, so chosen that those of small areas, such as a legend's ends, stay."""
 
 
 def written(name: str, folder: Path) -> Path:
@@ -81,7 +82,8 @@ def main(folder: Path) -> None:
     paths = [written(name, folder) for name in shipped_designs()]
     with running_browser() as browser:
         rows = [pictures(browser, path) for path in paths]
-    joined(rows).quantize(COLOURS).save(PICTURE, optimize=True)
+    sheet = joined(rows).quantize(COLOURS, Image.Quantize.MAXCOVERAGE)
+    sheet.save(PICTURE, optimize=True)
     print(f"{PICTURE}: {PICTURE.stat().st_size / 1000:.0f} kB")
 
 

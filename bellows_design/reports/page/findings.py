@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from bellows_design.pipeline import Outcome
     from bellows_design.progress import Progress
 
-LEFT_OUT = "they were left out; bellows report computes them"
+LEFT_OUT = "they were left out; bellows report without --no-sensitivities computes them"
 """Why there are no sensitivities, as the end of a sentence."""
 
 FRAMES, FEW_FRAMES = 11, 6

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -52,8 +52,7 @@ def scene_drawing(found: ForceCurve) -> Drawing:
     return Drawing(max(width, 200.0), height + 2 * MARGIN, tuple(marks), title)
 
 
-def _mark(outline: _Outline, at: object) -> Mark:
-    assert callable(at)
+def _mark(outline: _Outline, at: Callable[[Place], Point]) -> Mark:
     points = tuple(at(place) for place in outline.points)
     if outline.closed:
         return Area((points,), outline.kind)
@@ -118,8 +117,3 @@ def _object(scene: Grip) -> _Outline:
 def _box(left: float, bottom: float, right: float, top: float, kind: str = "object") -> _Outline:
     corners = ((left, bottom), (right, bottom), (right, top), (left, top))
     return _Outline(corners, kind, closed=True)
-
-
-def labels(readings: Sequence[ForceReading]) -> tuple[str, ...]:
-    """Pressures of the shapes, the lightest first."""
-    return tuple(f"{each.pressure_mpa:.3g} MPa" for each in readings)

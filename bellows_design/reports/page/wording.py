@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 import math
+import re
 
 from bellows_design.reports.page.blocks import Cell, Tone
+
+NAME = re.compile(r"\w+([._]\w+)+|\w+ =")
+"""Such as bubble_thickness, load.pressure or "length = 50"."""
 
 TONES: dict[str, Tone] = {"pass": "good", "info": "info", "warn": "warn", "fail": "bad"}
 """Of a rule's verdict."""
@@ -18,7 +22,7 @@ def plus_minus(value: float, percent: float | None, unit: str, digits: int = 1) 
 
 
 def pressure_text(pressure: float) -> str:
-    """A pressure over that outside, MPa and bar."""
+    """A pressure over that outside, MPa."""
     kind = " vacuum" if pressure < 0 else ""
     return f"{abs(pressure):.4g} MPa{kind}"
 
@@ -45,7 +49,8 @@ def number(text: str, tone: Tone = "") -> Cell:
 
 
 def capitalised(text: str) -> str:
-    """A sentence with a capital and a full stop."""
+    """A sentence with a full stop, and with a capital unless it begins with a name from a file."""
     text = text.strip()
     end = "" if text.endswith((".", "!", "?")) else "."
-    return f"{text[:1].upper()}{text[1:]}{end}"
+    first = text if NAME.match(text) else text[:1].upper() + text[1:]
+    return first + end

@@ -5,16 +5,16 @@ from __future__ import annotations
 from io import BytesIO
 from typing import TYPE_CHECKING, Any
 
-from bellows_design.reports.page.blocks import Head, Space
+from bellows_design.reports.page.blocks import Head
 from bellows_design.reports.page.pictures.drawn import INK, MUTED, RED, draw
-from bellows_design.reports.page.pictures.libraries import require_pictures
-from bellows_design.reports.page.pictures.rendering import Look, field_of, rendered, scale_of
+from bellows_design.reports.page.pictures.libraries import require_pictures, without_glyph_warnings
+from bellows_design.reports.page.pictures.rendering import Look
+from bellows_design.reports.page.pictures.surfaces import draw_surface, surface_of
 from bellows_design.reports.page.sections.head import head
 from bellows_design.reports.page.sections.shape import STRESS, THICKNESS, deformed, part
 
 if TYPE_CHECKING:
     from bellows_design.reports.page.findings import Findings
-    from bellows_design.web.scene import Surface
 
 SIZE = (13.0, 8.6)
 """Inches."""
@@ -40,11 +40,12 @@ def contact_sheet(found: Findings) -> bytes:
     )
     top = head(found)
     _title(grid["head"], top)
-    _shapes(figure, grid, found)
+    _shapes(grid, found)
     _curves(grid, found)
     _words(grid["words"], top)
     content = BytesIO()
-    figure.savefig(content, format="png", metadata={"Software": None})
+    with without_glyph_warnings():
+        figure.savefig(content, format="png", metadata={"Software": None})
     return content.getvalue()
 
 
@@ -58,41 +59,17 @@ def _title(axes: Any, top: Head) -> None:
     )  # fmt: skip
 
 
-def _shapes(figure: Any, grid: dict[str, Any], found: Findings) -> None:
+def _shapes(grid: dict[str, Any], found: Findings) -> None:
     """At rest with thickness, cut open, and under pressure."""
     at_rest = surface_of(part(found).blocks[0])
     assert at_rest is not None
-    _shape(figure, grid["rest"], at_rest, Look(THICKNESS), "wall thickness, mm")
-    _shape(figure, grid["cut"], at_rest, Look(THICKNESS, cut=True), "cut open, wall thickness, mm")
+    draw_surface(grid["rest"], at_rest, Look(THICKNESS), "the part")
+    draw_surface(grid["cut"], at_rest, Look(THICKNESS, cut=True), "cut open")
     moving = surface_of(deformed(found).blocks[0])
     if moving is None:
         _note(grid["bent"], "no deformed shape")
         return
-    title = f"{moving.frame_labels[-1]}: von Mises stress, MPa"
-    _shape(figure, grid["bent"], moving, Look(STRESS), title)
-
-
-def surface_of(block: object) -> Surface | None:
-    """The surface that a block of the report turns around; None if it has none."""
-    from bellows_design.web.scene import Surface
-
-    shown = block.surfaces[0] if isinstance(block, Space) else None
-    return shown if isinstance(shown, Surface) else None
-
-
-def _shape(figure: Any, axes: Any, surface: Surface, look: Look, title: str) -> None:
-    from matplotlib.cm import ScalarMappable
-    from matplotlib.colors import Normalize
-
-    axes.imshow(rendered(surface, look))
-    axes.axis("off")
-    axes.set_title(title, fontsize=10, parse_math=False)
-    field = field_of(surface, look)
-    if field is not None:
-        colours = ScalarMappable(
-            Normalize(*scale_of(field)), "viridis_r" if field.reverse else "viridis"
-        )
-        figure.colorbar(colours, ax=axes, shrink=0.6, orientation="horizontal", pad=0.02)
+    draw_surface(grid["bent"], moving, Look(STRESS), moving.frame_labels[-1])
 
 
 def _curves(grid: dict[str, Any], found: Findings) -> None:

@@ -24,7 +24,9 @@ from bellows_design.reports.page.blocks import (
     Steps,
 )
 from bellows_design.reports.page.pictures.drawn import INK, MUTED, RED, draw
-from bellows_design.reports.page.pictures.libraries import require_pictures
+from bellows_design.reports.page.pictures.libraries import require_pictures, without_glyph_warnings
+from bellows_design.reports.page.pictures.rendering import Look
+from bellows_design.reports.page.pictures.surfaces import draw_surface, surface_of
 
 if TYPE_CHECKING:
     from bellows_design.reports.page.findings import Findings
@@ -33,6 +35,12 @@ WIDTH, HEIGHT = 8.27, 11.69
 """Inches, A4."""
 
 LEFT, TOP, BOTTOM = 0.75, 0.7, 0.7
+
+PICTURE = 3.1
+"""Inches, of a row of pictures."""
+
+BELOW = 1.2
+"""Inches that stand below a heading at least."""
 
 LINE = 0.155
 """Inches, of text of 8 points."""
@@ -55,7 +63,9 @@ def as_pdf(found: Findings) -> bytes:
     paper = _Paper()
     _head(paper, page.head)
     for section in page.sections:
-        paper.heading(section.title, 13)
+        begins = section.blocks[0]
+        below = PICTURE if isinstance(begins, Pictures | Space) else 0.0
+        paper.heading(section.title, 13, BELOW + below)
         for block in section.blocks:
             _block(paper, block)
     paper.text(made_by(), MUTED)
@@ -95,10 +105,10 @@ class _Paper:
             self.line(line, colour=colour)
         self.down += 0.05
 
-    def heading(self, text: str, size: float) -> None:
-        """A title that is not left alone at the foot of a page."""
+    def heading(self, text: str, size: float, below: float = BELOW) -> None:
+        """A title with as much room ``below`` it, inches, on the same page."""
         self.down += 0.16
-        if self.down > HEIGHT - BOTTOM - 1.2:
+        if self.down > HEIGHT - BOTTOM - below:
             self.down = HEIGHT
         self.line(text, size, weight="bold")
         self.down += 0.06
@@ -121,7 +131,7 @@ class _Paper:
 
         content = BytesIO()
         title = {"Title": f"{page.head.name}: report", "CreationDate": None}
-        with PdfPages(content, metadata=title) as pages:
+        with without_glyph_warnings(), PdfPages(content, metadata=title) as pages:
             for number, figure in enumerate(self.figures, 1):
                 foot = f"{page.head.name}, page {number} of {len(self.figures)}"
                 figure.text(0.5, 0.03, foot, fontsize=7, color=MUTED, ha="center", parse_math=False)
@@ -224,12 +234,11 @@ def _row(paper: _Paper, row: tuple[Cell, ...], widths: list[int], colour: str) -
 
 def _pictures(paper: _Paper, block: Pictures) -> None:
     """Two beside each other."""
-    height = 3.1
     for start in range(0, len(block.pictures), 2):
         pair = block.pictures[start : start + 2]
-        paper.room(height)
+        paper.room(PICTURE)
         for number, picture in enumerate(pair):
-            draw(paper.axes(height, number / 2, 0.5), picture.content)
+            draw(paper.axes(PICTURE, number / 2, 0.5), picture.content)
     for picture in block.pictures:
         if picture.caption and picture.caption != picture.content.title:
             paper.text(picture.caption, MUTED)
@@ -237,21 +246,14 @@ def _pictures(paper: _Paper, block: Pictures) -> None:
 
 def _space(paper: _Paper, block: Space) -> None:
     """From outside, and cut open or at rest."""
-    from bellows_design.reports.page.pictures.contact_sheet import surface_of
-    from bellows_design.reports.page.pictures.rendering import Look, rendered
-
-    surface, height = surface_of(block), 2.9
+    surface = surface_of(block)
     if surface is None:
         return
-    moves = len(surface.frame_labels) > 1
-    looks = (
-        (Look(block.field, 0), Look(block.field))
-        if moves
-        else (Look(block.field), Look(block.field, cut=True))
-    )
-    paper.room(height)
-    for number, look in enumerate(looks):
-        axes = paper.axes(height, number / 2, 0.5)
-        axes.imshow(rendered(surface, look))
-        axes.axis("off")
+    labels = surface.frame_labels
+    looks = {"from outside": Look(block.field), "cut open": Look(block.field, cut=True)}
+    if len(labels) > 1:
+        looks = {labels[0]: Look(block.field, 0), labels[-1]: Look(block.field)}
+    paper.room(PICTURE)
+    for number, (title, look) in enumerate(looks.items()):
+        draw_surface(paper.axes(PICTURE, number / 2, 0.5), surface, look, title)
     paper.text(block.caption, MUTED)

@@ -37,15 +37,32 @@ def rendered(surface: Surface, look: Look) -> NDArray[np.uint8]:
     try:
         plotter: Any = pyvista.Plotter(off_screen=True, window_size=list(look.size))
         plotter.set_background("white")
-        plotter.add_mesh(_mesh(surface, look), **_options(surface, look))
+        mesh = _mesh(surface, look)
+        plotter.add_mesh(mesh, **_options(surface, look))
         plotter.view_vector((-0.55, -1.0, 0.45) if not look.cut else (0.0, -1.0, 0.18))
-        plotter.camera.zoom(1.45)
+        plotter.camera.zoom(_closest(plotter.camera, mesh.points, look.size))
         plotter.enable_anti_aliasing("ssaa")
         pixels = plotter.screenshot(return_img=True)
         plotter.close()
     except Exception as error:  # VTK has no class of its own for this
         raise DesignError(f"PyVista cannot draw on this machine: {error}.") from error
     return np.asarray(pixels)
+
+
+FILLED = 0.95
+"""Of the picture, by what is shown in it."""
+
+
+def _closest(camera: Any, points: NDArray[np.floating[Any]], size: tuple[int, int]) -> float:
+    """The zoom at which ``points`` (n, 3) fill the picture of ``size`` and none is cut off."""
+    ahead = np.subtract(camera.focal_point, camera.position)
+    right = np.cross(ahead, camera.up)
+    up = np.cross(right, ahead)
+    from_eye = points - np.array(camera.position)
+    depth, *across = (from_eye @ (each / np.linalg.norm(each)) for each in (ahead, right, up))
+    wide, high = (float(np.abs(each / depth).max()) for each in across)
+    seen = np.radians(camera.view_angle) / 2
+    return float(FILLED * seen / np.arctan(max(high, wide * size[1] / size[0])))
 
 
 def _leave_streams_alone() -> None:
@@ -69,14 +86,21 @@ def _mesh(surface: Surface, look: Look) -> Any:
 
 
 def _options(surface: Surface, look: Look) -> dict[str, Any]:
-    """Colours of a field, or one colour."""
+    """Colours of a field, hardly darker in the shade than on their bar, or one colour."""
     field = field_of(surface, look)
     smooth = {"smooth_shading": True, "split_sharp_edges": True, "show_scalar_bar": False}
     if field is None:
         return smooth | {"color": "#86aed2"}
-    low, high = scale_of(field)
+    light = {"ambient": 0.45, "diffuse": 0.6}
+    return smooth | light | {"scalars": field.name, "nan_color": "grey"} | colours_of(surface, look)
+
+
+def colours_of(surface: Surface, look: Look) -> dict[str, Any]:
+    """Name of the colour map and ends of the field's scale, as PyVista calls them."""
+    field = field_of(surface, look)
+    assert field is not None
     name = f"{COLOURS}_r" if field.reverse else COLOURS
-    return smooth | {"scalars": field.name, "cmap": name, "clim": (low, high), "nan_color": "grey"}
+    return {"cmap": name, "clim": scale_of(field)}
 
 
 def field_of(surface: Surface, look: Look) -> Field | None:

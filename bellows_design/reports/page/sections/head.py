@@ -83,7 +83,7 @@ def _computed(found: Outcome, evaluation: Evaluation) -> Iterator[Fact]:
         "Highest von Mises stress",
         f"{stress:.2f} MPa",
         plus_minus(stress, error.max_von_mises_percent, " MPa", 2),
-        f"limit {with_unit(limit, 'MPa')}, {100 * stress / limit:.0f} % of it",
+        f"{100 * stress / limit:.0f} % of the limit, {with_unit(limit, 'MPa')}",
         "bad" if over else "",
     )
     reached = evaluation.pressure_mpa / found.design.load.pressure >= 1 - 1e-9

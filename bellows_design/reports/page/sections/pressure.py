@@ -47,25 +47,30 @@ def _blocks(found: Evaluation, told: Sequence[str]) -> Iterator[Block]:
     if not found.converged:
         yield Sentences((capitalised(found.message or "the load was not reached"),), "bad")
     if len(found.path) > 1:
-        yield Pictures(
-            (
-                Picture(angle_chart(found), "The band is the estimated error of mesh and model."),
-                Picture(stress_chart(found), "The highest von Mises stress anywhere."),
-            )
-        )
-        yield Sentences(
-            (
-                "The path is that of the coarsest mesh, its end that of the finest; the band of "
-                "the path is widened by their difference.",
-            ),
-            "muted",
-        )
+        yield from _curves(found)
     yield Facts(tuple(_facts(found)))
     warnings = tuple(capitalised(each) for each in found.warnings if each not in told)
     if warnings:
         yield Sentences(warnings, "warn")
     if len(found.path) > 1:
         yield Folded("The numbers", (_table(found),))
+
+
+def _curves(found: Evaluation) -> Iterator[Block]:
+    """Both charts, and what their bands are; one mesh alone gives no error."""
+    angle, stress = angle_chart(found), stress_chart(found)
+    band = "The band is the estimated error of mesh and model."
+    if not any(len(line.low) for line in angle.lines):
+        band = "Without a band, as its error is not estimated."
+    yield Pictures(
+        (Picture(angle, band), Picture(stress, "The highest von Mises stress anywhere."))
+    )
+    if len(found.meshes) > 1:
+        told = (
+            "The path is that of the coarsest mesh, its end that of the finest; the band of the "
+            "path is widened by their difference."
+        )
+        yield Sentences((told,), "muted")
 
 
 def _facts(found: Evaluation) -> Iterator[Fact]:

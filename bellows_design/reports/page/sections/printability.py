@@ -16,7 +16,7 @@ from bellows_design.reports.page.blocks import (
     Section,
     Sentences,
 )
-from bellows_design.reports.page.places import Marked, marked_rules, place_drawings
+from bellows_design.reports.page.places import marked_rules, place_drawings
 from bellows_design.reports.page.wording import (
     TONES,
     capitalised,
@@ -29,6 +29,11 @@ from bellows_design.reports.page.wording import (
 if TYPE_CHECKING:
     from bellows_design.reports.page.findings import Findings
     from printers.report import RuleResult
+
+CAPTIONS = (
+    "From the side, cut through the middle. Numbers are those of the table's last column.",
+    "From above, cut at half the tendon's height.",
+)
 
 TITLES = ("", "rule", "measured", "required", "margin", "where", "mark")
 
@@ -48,9 +53,8 @@ def _blocks(findings: Findings) -> Iterator[Block]:
         if texts:
             yield Sentences(tuple(texts), "" if tone == "good" else TONES[_verdict_of(tone)])
     if marked:
-        caption = "Numbers are those of the table's last column; the section is through the middle."
         pictures = place_drawings(found.design, found.part.mesh, marked)
-        yield Pictures(tuple(Picture(each, caption) for each in pictures))
+        yield Pictures(tuple(map(Picture, pictures, CAPTIONS)))
     numbers = {id(rule): each.number for each in marked for rule in each.rules}
     rows = tuple(_row(rule, numbers.get(id(rule), 0)) for rule in report.rules)
     yield Grid(headings(*TITLES, right=("measured", "required", "margin", "mark")), rows)
@@ -99,8 +103,3 @@ def _measured(rule: RuleResult, uncertain: str) -> str:
     if isinstance(rule.measured, str):
         return with_unit(rule.measured, rule.unit)
     return f"{shown(rule.measured)}{uncertain} {rule.unit}".strip()
-
-
-def marks_of(marked: tuple[Marked, ...]) -> dict[int, int]:
-    """Rule, by its identity -> the number of its mark."""
-    return {id(rule): each.number for each in marked for rule in each.rules}

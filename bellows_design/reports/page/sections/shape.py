@@ -16,6 +16,9 @@ if TYPE_CHECKING:
 NEAR_LIMIT = 0.4
 """Of the limit: from such a stress on the colours end at the limit."""
 
+SAME_ANGLE = 0.05
+"""Degrees, by which two angles differ that are one."""
+
 THICKNESS, STRESS = "wall thickness", "von Mises stress"
 
 
@@ -57,13 +60,26 @@ def _moving(findings: Findings, found: SurfaceFrames) -> Block:
     caption = (
         "The whole actuator, put together from the solution of its bubbles, from rest to "
         f"{pressure_text(float(found.pressures_mpa[-1]))}: move the slider, or press [ and ]. "
-        "Shapes and colours are those of the coarsest mesh, turned to the angle of the finest; its "
-        "stresses are somewhat off: the finest one's highest stress stands on top of the page. At "
-        "sharp edges without a fillet they depend on the mesh and do not count. The limit is "
-        f"{limit:g} MPa."
+        f"{_accuracy(findings, found)} At sharp edges without a fillet stresses depend on the mesh "
+        f"and do not count. The limit is {limit:g} MPa."
     )
     last = len(found.pressures_mpa) - 1
     return Space((surface,), caption, f"{design.name} under pressure", STRESS, 520, last)
+
+
+def _accuracy(findings: Findings, found: SurfaceFrames) -> str:
+    """What is of the coarsest mesh: of a cell all but the angle, of other models that too."""
+    evaluation = findings.outcome.evaluation
+    if evaluation and abs(found.angles_deg[-1] - evaluation.bending_angle_deg) < SAME_ANGLE:
+        return (
+            "Shapes and colours are those of the coarsest mesh, turned to the angle of the finest; "
+            "its stresses are somewhat off: the finest one's highest stress stands on top of the "
+            "page."
+        )
+    return (
+        "Shapes, angles and colours are those of the coarsest mesh and somewhat off: the finest "
+        "one's angle and highest stress stand on top of the page."
+    )
 
 
 def _top(found: SurfaceFrames, limit: float) -> float:

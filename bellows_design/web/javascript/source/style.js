@@ -90,12 +90,14 @@ input[type="checkbox"] { width: 16px; height: 16px; margin: 0; accent-color: var
 .quiet { color: var(--own-muted); }
 .hidden-text { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%);
   white-space: nowrap; }
-@media print { .bar, .help-button, .help { display: none !important; } .frame { break-inside: avoid; } }
+@media print { .bar, .help-button, .help { display: none !important; } .frame { break-inside: avoid; }
+  :is(.swatch, .legend-scale, .legend-missing i) { -webkit-print-color-adjust: exact; print-color-adjust: exact; } }
 `;
 
 export const VIEWER_STYLE = `${SHARED_STYLE}
 .legend { position: absolute; top: 10px; right: 12px; display: grid; gap: 11px; justify-items: end;
-  pointer-events: none; max-width: 60%; }
+  pointer-events: none; max-width: 60%;
+  text-shadow: ${Array(4).fill("0 0 3px var(--own-stage)").join(", ")}; }
 .legend-title { font-weight: 600; text-align: right; }
 .legend-scale { position: relative; width: 14px; height: min(170px, 38cqh); margin-right: 58px;
   border-radius: 3px; box-shadow: 0 0 0 1px var(--own-line); }
@@ -128,6 +130,8 @@ export const VIEWER_STYLE = `${SHARED_STYLE}
   opacity: 0; transition: opacity 0.2s; pointer-events: none; white-space: nowrap; }
 .note.shown { opacity: 0.92; }
 .stage { container-type: size; }
+canvas.paper { display: none; position: static; width: 100%; height: auto; }
+@media print { .frame:has(.paper) .stage { display: none; } canvas.paper { display: block; } }
 @media (prefers-reduced-motion: reduce) { .note { transition: none; } }
 `;
 

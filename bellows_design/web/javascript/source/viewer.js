@@ -7,7 +7,7 @@ import { Controls } from "./controls.js";
 import { element, onThemeChange, reducedMotion, shadowOf } from "./dom.js";
 import { mapTexture } from "./materials.js";
 import { Help, Legend, ScaleBar, Triad } from "./overlay.js";
-import { picture } from "./picture.js";
+import { picture, printedAsPicture } from "./picture.js";
 import { Probe } from "./probe.js";
 import { Section } from "./section.js";
 import { Shape } from "./shape.js";
@@ -113,6 +113,7 @@ export class Viewer extends EventTarget {
     this.sizes = new ResizeObserver(() => this.resize());
     this.sizes.observe(this.stage);
     this.resize();
+    this.endPrinting = printedAsPicture(this);
   }
 
   fail(text) {
@@ -482,6 +483,7 @@ export class Viewer extends EventTarget {
     this.play(false);
     this.endTheme();
     if (this.sizes) this.sizes.disconnect();
+    this.endPrinting?.();
     cancelAnimationFrame(this.pending);
     this.shapes.forEach((shape) => shape.dispose());
     this.section.dispose();

@@ -20,6 +20,21 @@ pytestmark = pytest.mark.browser
 
 MOVING = "Bellows.of(document.querySelector('#deformed .bellows-view'))"
 
+FOLDED = "document.querySelector('details td').checkVisibility()"
+
+ON_PAPER = """() => {
+    const view = document.querySelector('#deformed .bellows-view').shadowRoot;
+    const paper = view.querySelector('canvas.paper');
+    const { data } = paper.getContext('2d').getImageData(0, 0, paper.width, paper.height);
+    const corner = [...data.slice(0, 4)];
+    return [corner, data.filter((value, at) => value !== corner[at % 4]).length];
+}"""
+"""The colour of the picture's corner, and how many bytes differ from it."""
+
+CUT_OFF = """where => [...document.querySelectorAll(where)]
+    .filter(each => each.scrollWidth > each.clientWidth).length"""
+"""How many boxes must be scrolled sideways."""
+
 
 @pytest.fixture(scope="module")
 def report(tmp_path_factory: pytest.TempPathFactory) -> Path:
@@ -78,6 +93,45 @@ def test_a_narrow_page_needs_no_scrolling_sideways_and_is_readable(
         shown(page)
         assert wider_than_the_window(page) == 0
         assert hard_to_read(page) == []
+        assert seen.all == []
+
+
+def test_narrow_charts_are_seen_whole(browser: Browser, report: Path) -> None:
+    with opened(browser, report, width=NARROW) as (page, _):
+        assert page.evaluate(CUT_OFF, ".picture:has(> .chart)") == 0
+
+
+def test_views_that_nobody_scrolled_to_start_too(browser: Browser, report: Path) -> None:
+    """Else they would be empty on paper."""
+    with opened(browser, report, height=300) as (page, seen):
+        page.wait_for_selector("#deformed .bellows-view[data-ready]", timeout=60_000)
+        assert page.evaluate("scrollY") == 0
+        assert seen.all == []
+
+
+def test_paper_shows_what_is_folded_and_the_colours_of_legends(
+    browser: Browser, report: Path
+) -> None:
+    """Also without the backgrounds, which browsers leave out unless they are asked for them."""
+    with opened(browser, report) as (page, _):
+        shown(page)
+        assert not page.evaluate(FOLDED)
+        page.emulate_media(media="print")
+        assert page.evaluate(FOLDED)
+        scale = page.locator("#deformed .legend-scale")
+        assert scale.evaluate("each => getComputedStyle(each).printColorAdjust") == "exact"
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_paper_shows_the_shape_on_white(browser: Browser, report: Path, theme: Any) -> None:
+    """A picture stands for the view: its own canvas may be empty in another size."""
+    with opened(browser, report, theme=theme) as (page, seen):
+        shown(page)
+        page.evaluate("dispatchEvent(new Event('beforeprint'))")
+        corner, different = page.evaluate(ON_PAPER)
+        assert corner == [255, 255, 255, 255] and different > 1000
+        page.evaluate("dispatchEvent(new Event('afterprint'))")
+        assert page.locator("#deformed canvas.paper").count() == 0
         assert seen.all == []
 
 

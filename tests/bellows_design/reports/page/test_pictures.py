@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import sys
+from dataclasses import replace
 from functools import cache
 from io import BytesIO
 from typing import Any
@@ -51,6 +52,28 @@ def test_a_rendering_has_its_size_and_shows_the_surface_in_the_middle() -> None:
     drawn = np.argwhere(ink(pixels))
     assert 0.1 < len(drawn) / (120 * 160) < 0.95
     assert drawn.mean(axis=0) == pytest.approx([60, 80], abs=12)
+
+
+@pytest.mark.parametrize("sides", [(20, 10, 10), (10, 10, 40), (60, 2, 2), (20, 20, 20)])
+@pytest.mark.parametrize("cut", [False, True])
+def test_a_rendering_fills_its_picture_and_cuts_nothing_off(
+    sides: tuple[float, float, float], cut: bool
+) -> None:
+    points, triangles = block(*sides)
+    points -= np.array(sides) / 2
+    surface = Surface("block", triangles, points, (Field("height", "mm", points[:, 2]),))
+    drawn = np.argwhere(ink(rendered(surface, replace(LOOK, cut=cut))))
+    assert (drawn.min(axis=0) > 0).all() and (drawn.max(axis=0) < (119, 159)).all()
+    assert (np.ptp(drawn, axis=0) / (120, 160)).max() > 0.7
+
+
+def test_colours_are_about_those_of_their_bar() -> None:
+    """Else light and shade would be read as values."""
+    from matplotlib import colormaps
+
+    seen = colour(rendered(raised(np.full(8, 5.0), low=0.0, high=10.0), LOOK))
+    bar = 255 * np.array(colormaps["viridis"](0.5)[:3])
+    assert np.abs(seen - bar).max() < 60
 
 
 def test_drawing_without_a_screen_prints_nothing(

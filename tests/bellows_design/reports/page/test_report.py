@@ -33,15 +33,25 @@ def test_the_head_states_verdict_figures_and_their_errors() -> None:
     text = read(found).text
     assert "Approved" in text and found.outcome.design.digest in text
     assert "60.0° ± 3.0° (5 %)" in text
-    assert "3.00 MPa ± 0.30 MPa (10 %) limit 4 MPa, 75 % of it" in text
+    assert "3.00 MPa ± 0.30 MPa (10 %) 75 % of the limit, 4 MPa" in text
     printed = figures_of(found.outcome, found.outcome.evaluation)  # type: ignore[arg-type]
     assert f"{printed.mass:.1f} g" in text and f"over {printed.least_hours:.1f} h" in text
+
+
+@pytest.mark.parametrize(
+    ("angle", "said"),
+    [(60.0, "turned to the angle of the finest"), (61.0, "Shapes, angles and colours are those")],
+)
+def test_the_shape_says_whose_angle_it_has(angle: float, said: str) -> None:
+    found = findings(evaluation=made_up(design_of(), bending_angle_deg=angle))
+    assert said in read(found).text
 
 
 def test_without_an_estimate_none_is_shown() -> None:
     estimate = FakeEstimate(None, None)
     text = read(findings(evaluation=made_up(design_of(), error_estimate=estimate))).text
     assert "error not estimated" in text and "±" not in text.partition("design digest")[0]
+    assert "Without a band" in text and "The band is" not in text
 
 
 def test_a_refused_design_names_all_reasons_and_what_is_not_judged() -> None:
@@ -169,7 +179,7 @@ def test_a_leak_test_shows_its_rules() -> None:
     outcome = LeakOutcome("PrusaSlicer", "2.9", "ab" * 32, rules, {"notes": ["one note"]}, 12.3)
     text = read(findings(leak_test=LeakTest("required", outcome))).text
     assert "PrusaSlicer 2.9" in text and "12.3 s" in text
-    assert "Leak_path holds." in text and "One note." in text
+    assert "leak_path holds." in text and "One note." in text
 
 
 def test_scenes_show_their_force_with_its_error_and_failures_why() -> None:
