@@ -426,6 +426,16 @@ def test_lost_connection_is_said_and_the_changes_come_back(
     _expect_angle(page, _design("bubble_height=22"))
 
 
+def test_what_is_being_typed_outlives_a_new_connection(page: Any, studio: PretendedStudio) -> None:
+    field = _field(page, "bubble_height")
+    field.fill("23")
+    studio.cut()
+    page.locator("#banner", has_text="lost").wait_for()
+    page.locator("#banner", has_text="Connected again").wait_for(timeout=15_000)
+    page.keyboard.press("Enter")
+    _expect_angle(page, _design("bubble_height=23"))
+
+
 def test_page_that_is_one_too_many_says_why_and_comes_in_once_there_is_room(
     page: Any, studio: PretendedStudio
 ) -> None:
