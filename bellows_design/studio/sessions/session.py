@@ -79,6 +79,7 @@ class Session:
         """The page is gone."""
         for task in self._tasks:
             task.cancel()
+        self._follows = False  # of cells that are yet to come nothing is shown here
         self._lanes.forget(self.number)
 
     def fail(self, what: str, message: str, revision: int | None = None) -> None:

@@ -17,10 +17,12 @@ if TYPE_CHECKING:
 def run(values: Values, _: Values, report: Report) -> None:
     """``bellows run`` of the page's design; a changed one is named after its digest as well."""
     from bellows_design import pipeline
+    from bellows_design.reports.page.make import run_report
 
     base = design_of_text(values["base"])
     design = renamed_if_changed(changed(base, values["values"]), base)
-    outcome = pipeline.run(design, Path(values["output"]), report, store=store_at(values))
+    output, store = Path(values["output"]), store_at(values)
+    outcome = pipeline.run(design, output, report, store=store, reporter=run_report)
     folder = outcome.folder
     report(
         "ran",

@@ -54,7 +54,7 @@ def _figures(found: ForceCurve) -> Iterator[Values]:
     yield from _forces(found)
     yield _figure("Tip angle", last.tip_angle_deg, "°")
     for axis, place in zip("xz", last.tip_position_mm, strict=True):
-        yield _figure(f"Tip at {axis}", place, "mm")
+        yield _figure(f"Tip at {axis}", round(place, 6) + 0.0, "mm")  # no 1e-15
     stress_error = last.max_von_mises_error_percent
     yield _figure("Highest stress", last.max_von_mises_mpa, "MPa", stress_error)
     yield _figure("Stable", _yes(last.stable), "")

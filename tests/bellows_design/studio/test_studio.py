@@ -188,7 +188,7 @@ def test_run_writes_into_the_folder_of_exports_only(store: Path, tmp_path: Path)
         await page.until("start", name="finger")
         page.tell("run")
         ran = await page.until("ran")
-        assert ran["approved"] and {"finger.stl", "manifest.json"} <= {
+        assert ran["approved"] and {"finger.stl", "finger_report.html", "manifest.json"} <= {
             each["name"] for each in ran["files"]
         }
         assert (tmp_path / "exports" / "finger" / "finger.stl").is_file()

@@ -62,6 +62,9 @@ bindShortcuts([
   { keys: ["?"], what: "this list", act: () => byId("help-dialog").showModal() },
 ]);
 
+// A page that is loaded anew begins with the design of the command: changes are not lost unasked.
+addEventListener("beforeunload", (event) => session.isChanged && event.preventDefault());
+
 connection.start();
 
 /** The 3D view, or null where the browser has no WebGL 2; all else works without. */

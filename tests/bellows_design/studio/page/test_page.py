@@ -230,6 +230,22 @@ def test_reset_goes_back_to_the_opened_design_and_can_be_undone(page: Any) -> No
     _expect_angle(page, _design("bubble_height=23"))
 
 
+def test_changes_are_asked_about_before_the_page_is_loaded_anew(page: Any) -> None:
+    asked: list[str] = []
+    page.on("dialog", lambda dialog: (asked.append(dialog.type), dialog.accept()))
+    page.reload()
+    _settle(page)
+    assert not asked
+    _type(page, "bubble_height", "23")
+    _settle(page)
+    with page.expect_download():
+        page.locator("#save").click()
+    assert not asked
+    page.reload()
+    assert asked == ["beforeunload"]
+    _expect_angle(page, _design())
+
+
 def test_comparison_says_that_bubbles_were_as_many_as_fit(page: Any) -> None:
     page.locator("#pin").click()
     page.locator("label[for=p-number_of_bubbles-automatic]").click()
@@ -339,6 +355,18 @@ def test_saved_file_is_the_design_on_the_sliders(page: Any, tmp_path: Path) -> N
     assert load_design(tmp_path / "saved.toml").digest == _design("bubble_height=21.5").digest
 
 
+@pytest.mark.parametrize("text", ["x" * 1_000_001, "\n" * 600_000, "é" * 500_001])
+def test_file_that_no_message_holds_is_refused_and_not_sent(
+    page: Any, studio: PretendedStudio, tmp_path: Path, text: str
+) -> None:
+    studio.received.clear()
+    file = tmp_path / "huge.toml"
+    file.write_bytes(text.encode())
+    page.locator("#open-file").set_input_files(file)
+    page.locator("#open-problem", has_text="huge.toml has more than 1 MB").wait_for()
+    assert not [each for each in studio.received if each["type"] == "open_toml"]
+
+
 def test_own_file_is_opened_and_undo_leads_back_from_it(page: Any, tmp_path: Path) -> None:
     _type(page, "bubble_height", "21")
     _settle(page)
@@ -396,6 +424,16 @@ def test_lost_connection_is_said_and_the_changes_come_back(
     assert studio.last("change")["values"] == {"bubble_height": 22, "bubble_width": 21}
     page.locator("#undo").click()
     _expect_angle(page, _design("bubble_height=22"))
+
+
+def test_what_is_being_typed_outlives_a_new_connection(page: Any, studio: PretendedStudio) -> None:
+    field = _field(page, "bubble_height")
+    field.fill("23")
+    studio.cut()
+    page.locator("#banner", has_text="lost").wait_for()
+    page.locator("#banner", has_text="Connected again").wait_for(timeout=15_000)
+    page.keyboard.press("Enter")
+    _expect_angle(page, _design("bubble_height=23"))
 
 
 def test_page_that_is_one_too_many_says_why_and_comes_in_once_there_is_room(

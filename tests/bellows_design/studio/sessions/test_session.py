@@ -87,6 +87,21 @@ def test_resting_again_at_the_same_design_is_answered_too(tmp_path: Path) -> Non
     in_loop(tmp_path, check)
 
 
+def test_cells_that_come_after_a_page_has_gone_make_no_shape_for_it(tmp_path: Path) -> None:
+    async def check(page: Page) -> None:
+        page.tell("change", 1, values={"stub": "follows"})
+        await page.until("shape_follows", revision=1)
+        await page.quiet()
+        page.session.close()
+        cell = {"kind": "cell", "base": "", "values": {}, "surfaces": []}
+        page.session._heard_of_cells(cell, {})
+        quick = page.session._lanes.quick
+        jobs = [job for job in (*quick._waiting, quick._running) if job is not None]
+        assert page.session.number not in [job.owner for job in jobs]
+
+    in_loop(tmp_path, check)
+
+
 def test_invalid_values_are_explained_and_nothing_is_solved(tmp_path: Path) -> None:
     async def check(page: Page) -> None:
         page.tell("change", 1, values={"stub": "invalid"})

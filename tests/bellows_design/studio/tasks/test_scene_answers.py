@@ -62,6 +62,10 @@ def test_grip_always_says_whether_the_object_is_held(holds: bool | None, told: s
     assert figures(GRIP, holds=holds)["Object held"] == told
 
 
+def test_tip_on_the_plate_is_at_zero_without_its_rounding() -> None:
+    assert str(figures(Blocked(), tip_position_mm=(35.6, -6.2e-15))["Tip at z"]) == "0.0"
+
+
 def test_what_is_not_known_is_left_out() -> None:
     assert "Highest stress" not in figures(Blocked(), max_von_mises_mpa=None)
 

@@ -1,6 +1,7 @@
 // Run and download: the whole path to an approved part, with its progress, verdict and files.
 
 import { byId, element, setText } from "../parts/elements.js";
+import { capitalised } from "../parts/words.js";
 
 export class Exporting {
   #session;
@@ -28,15 +29,12 @@ export class Exporting {
     this.bar.removeAttribute("value");
     for (const id of ["run-reasons", "run-files"]) byId(id).replaceChildren();
     delete this.status.dataset.level;
-    setText(
-      this.status,
-      "Checking, solving and writing the files; this takes half a minute or so…",
-    );
+    setText(this.status, "Checking, solving, slicing and writing the files; this takes a while…");
   }
 
   #working({ what, fraction, message }) {
     if (what !== "run" || !this.#running) return;
-    if (message) setText(this.status, message);
+    if (message) setText(this.status, `${capitalised(message)}…`);
     if (fraction === null || fraction === undefined) this.bar.removeAttribute("value");
     else this.bar.value = fraction;
   }

@@ -48,9 +48,10 @@ export class Opening {
   async #read(file) {
     if (!file) return;
     byId("open-file").value = "";
-    if (file.size > LARGEST_BYTES)
+    const text = file.size > LARGEST_BYTES ? null : await file.text();
+    if (text === null || sentBytes(text) > LARGEST_BYTES)
       return this.#complain(`${file.name} has more than 1 MB and is no design.`);
-    this.#session.openText(await file.text());
+    this.#session.openText(text);
   }
 
   #failed({ what, message }) {
@@ -80,4 +81,10 @@ export class Opening {
       this.#read(event.dataTransfer.files[0]);
     });
   }
+}
+
+/** Bytes of a text in a message, where line ends and quotes take two: the studio ends a connection
+ * that sends too much, and the page would send it again. */
+function sentBytes(text) {
+  return new TextEncoder().encode(JSON.stringify(text)).length;
 }

@@ -28,17 +28,25 @@ export class Sliders {
   #indent = null;
   #optional = [];
   #sensitivityRevision = -1;
+  #built = null; // the design, as TOML, that the rows are for
 
   constructor(host, session) {
     this.#session = session;
     this.#host = host;
-    session.addEventListener("start", () => this.#rebuild());
+    session.addEventListener("start", () => this.#started());
     session.addEventListener("values", () => this.#show());
     session.addEventListener("state", () => this.#dimSensitivities());
     session.addEventListener("problems", (event) => this.#showProblems(event.detail.header));
     session.addEventListener("sensitivities", (event) =>
       this.#showSensitivities(event.detail.header),
     );
+  }
+
+  /** The same design over a new connection keeps its rows: someone may be typing in one. */
+  #started() {
+    const { toml } = this.#session.start;
+    if (toml !== this.#built) this.#rebuild();
+    this.#built = toml;
   }
 
   #rebuild() {

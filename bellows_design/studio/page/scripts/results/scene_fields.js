@@ -21,7 +21,7 @@ export const SCENES = {
   },
   payload: {
     label: "Payload",
-    meaning: "A mass hangs on the tip: how far is it lifted?",
+    meaning: "A mass hangs on the tip: how does the finger bend under it?",
     fields: [
       { name: "mass_g", label: "Mass", unit: "g", least: 0.1, most: 10000, value: 20 },
       { ...GRAVITY, choices: GRAVITY.choices.slice(1), value: "down" },
