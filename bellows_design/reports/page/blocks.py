@@ -38,6 +38,12 @@ class Fact:
     note: str = ""
     tone: Tone = ""
 
+    @property
+    def line(self) -> str:
+        """All of it on one line."""
+        said = " ".join(each for each in (self.value, self.error, self.note) if each)
+        return f"{self.name}: {said}"
+
 
 @dataclass(frozen=True)
 class Facts:

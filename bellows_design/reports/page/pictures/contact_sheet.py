@@ -89,7 +89,7 @@ def _words(axes: Any, top: Head) -> None:
     from textwrap import fill
 
     axes.axis("off")
-    lines = [f"{each.name}: {each.value} {each.error} {each.note}".strip() for each in top.figures]
+    lines = [each.line for each in top.figures]
     lines += [f"{each.name}: {each.value}" for each in top.reasons]
     lines += [f"not judged: {each.name}, as {each.value}" for each in top.not_judged]
     text = "\n".join(fill(line, 52, subsequent_indent="   ") for line in lines)

@@ -147,9 +147,7 @@ def _head(paper: _Paper, head: Head) -> None:
     paper.line(f"{head.verdict}. {head.summary}", 12, colour, weight="bold")
     paper.down += 0.08
     for fact in head.figures:
-        paper.text(
-            " ".join(each for each in (f"{fact.name}:", fact.value, fact.error, fact.note) if each)
-        )
+        paper.text(fact.line)
     for fact in head.reasons:
         paper.text(f"{fact.name} ({fact.note}): {fact.value}", RED)
     for text in head.warnings:
@@ -181,8 +179,7 @@ def _sentences(paper: _Paper, block: Sentences) -> None:
 
 def _facts(paper: _Paper, block: Facts) -> None:
     for fact in block.rows:
-        said = " ".join(each for each in (fact.value, fact.error, fact.note) if each)
-        paper.text(f"{fact.name}: {said}", COLOURS.get(fact.tone, INK))
+        paper.text(fact.line, COLOURS.get(fact.tone, INK))
 
 
 def _folded(paper: _Paper, block: Folded) -> None:

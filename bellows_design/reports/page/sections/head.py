@@ -11,7 +11,6 @@ from bellows_design.reports.page.wording import (
     capitalised,
     plus_minus,
     pressure_text,
-    with_unit,
 )
 
 if TYPE_CHECKING:
@@ -83,7 +82,7 @@ def _computed(found: Outcome, evaluation: Evaluation) -> Iterator[Fact]:
         "Highest von Mises stress",
         f"{stress:.2f} MPa",
         plus_minus(stress, error.max_von_mises_percent, " MPa", 2),
-        f"{100 * stress / limit:.0f} % of the limit, {with_unit(limit, 'MPa')}",
+        f"{100 * stress / limit:.0f} % of the limit, {limit:.4g}\u00a0MPa",
         "bad" if over else "",
     )
     reached = evaluation.pressure_mpa / found.design.load.pressure >= 1 - 1e-9

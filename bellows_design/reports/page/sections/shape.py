@@ -58,7 +58,8 @@ def _moving(findings: Findings, found: SurfaceFrames) -> Block:
     name = "actuator"
     surface = Surface(name, found.triangles, found.positions, (colours,), labels)
     caption = (
-        "The whole actuator, put together from the solution of its bubbles, from rest to "
+        "The whole actuator, without port and mount, put together from the solution of its "
+        "bubbles, from rest to "
         f"{pressure_text(float(found.pressures_mpa[-1]))}: move the slider, or press [ and ]. "
         f"{_accuracy(findings, found)} At sharp edges without a fillet stresses depend on the mesh "
         f"and do not count. The limit is {limit:g} MPa."
