@@ -333,3 +333,18 @@ def _faulty(error: BaseException) -> BellowsError:
         return error
     what = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
     return ClusterError(f"a worker cannot answer, {what}; {RESUME}.")
+
+
+def release_semaphores() -> None:
+    """Give back the semaphores of the queues to workers, where the process ends at once.
+
+    Python does so at its own end. Otherwise its process that looks after them complains on stderr
+    that they leaked.
+    """
+    from multiprocessing import synchronize, util  # loaded with dask.distributed
+
+    cleanup = getattr(synchronize.SemLock, "_cleanup", None)
+    for finalizer in list(getattr(util, "_finalizer_registry", {}).values()):
+        if cleanup is not None and getattr(finalizer, "_callback", None) is cleanup:
+            with suppress(OSError, RuntimeError):  # it is gone, or just being given back
+                finalizer()

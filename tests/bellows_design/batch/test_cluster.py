@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+import subprocess
+import sys
 from contextlib import closing
 
 import psutil
@@ -108,3 +110,23 @@ def test_workers_share_the_memory_that_one_evaluation_may_take(monkeypatch):
     monkeypatch.setattr("bellows_design.batch.places.default_memory", lambda: 4.0)
     memory = [ThisMachine(workers).budget.memory for workers in (1, 2, 100)]
     assert memory == [4.0, 2.0, LEAST_MEMORY]
+
+
+ENDING = """
+import multiprocessing, os
+from bellows_design.batch.cluster import release_semaphores
+
+queue = multiprocessing.get_context("spawn").Queue()
+if {released}:
+    release_semaphores()
+os._exit(0)
+"""
+
+
+@pytest.mark.thorough
+@pytest.mark.skipif(os.name != "posix", reason="semaphores have names on POSIX systems only")
+@pytest.mark.parametrize("released", [True, False])
+def test_a_process_that_ends_at_once_leaks_no_semaphores(released: bool) -> None:
+    command = [sys.executable, "-c", ENDING.format(released=released)]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert ("leaked" in done.stderr) is not released
