@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import signal
 import subprocess
 import sys
 from contextlib import closing
@@ -46,6 +47,16 @@ def test_lanes_keep_to_their_workers_which_listen_on_the_loopback_only(monkeypat
     assert not psutil.Process(os.getpid()).children(recursive=True) or all(
         not psutil.pid_exists(int(process)) for _, process in workers
     )
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(os.name != "posix", reason="only there a terminal interrupts a whole group")
+def test_a_worker_does_not_hear_an_interruption():
+    with closing(Cluster(stub(0.5), ThisMachine(1))) as cluster:
+        first, second = questions(2)
+        worker = int(cluster.submit(first, 0).result().max_von_mises_mpa or 0)
+        os.kill(worker, signal.SIGINT)
+        assert cluster.submit(second, 0).result().max_von_mises_mpa == worker
 
 
 @pytest.mark.slow
