@@ -62,13 +62,16 @@ TYPES = {
 }
 
 
+WORDS = {" -- ": " – ", "Variables": "Attributes"}
+
+
 def setup(app):  # type: ignore[no-untyped-def]
     """Pages are generated before Sphinx looks for them; links are led within the site."""
     app.connect("builder-inited", lambda app: write_pages(HERE / "generated"), priority=100)
     app.connect("source-read", read)
     app.connect("autodoc-skip-member", skipped)
     app.connect("autodoc-process-docstring", shortened, priority=900)  # after napoleon
-    app.connect("doctree-read", dashed)
+    app.connect("doctree-read", reworded)
 
 
 def read(app, name, source):  # type: ignore[no-untyped-def]
@@ -84,11 +87,11 @@ def shortened(app, what, name, member, options, lines):  # type: ignore[no-untyp
         lines[:] = [re.sub(long, short, line) for line in lines]
 
 
-def dashed(app, doctree):  # type: ignore[no-untyped-def]
-    """Between the name and the meaning of a field a dash: Sphinx writes two hyphens there."""
+def reworded(app, doctree):  # type: ignore[no-untyped-def]
+    """Pieces of text that Sphinx writes into descriptions, as they are written elsewhere."""
     for node in list(doctree.findall()):
-        if not node.children and node.astext() == " -- ":
-            node.parent.replace(node, type(node)(" – "))
+        if not node.children and node.astext() in WORDS:
+            node.parent.replace(node, type(node)(WORDS[node.astext()]))
 
 
 def skipped(app, kind, name, member, skip, options):  # type: ignore[no-untyped-def]

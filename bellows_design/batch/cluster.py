@@ -7,6 +7,7 @@ dies it is known at which question, and no other one is blamed.
 from __future__ import annotations
 
 import asyncio
+import signal
 import threading
 from collections.abc import AsyncIterator, Awaitable, Callable
 from concurrent.futures import Future, InvalidStateError
@@ -133,6 +134,7 @@ class Cluster:
 
     def _run(self) -> None:
         """The thread of the event loop."""
+        _leave_interruptions_to_the_main_thread()
         try:
             asyncio.run(self._work())
         except BaseException as error:  # of a thread: whoever waits hears of it, nobody else
@@ -333,3 +335,30 @@ def _faulty(error: BaseException) -> BellowsError:
         return error
     what = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
     return ClusterError(f"a worker cannot answer, {what}; {RESUME}.")
+
+
+def _leave_interruptions_to_the_main_thread() -> None:
+    """Ctrl-C reaches all processes on a terminal: workers, which inherit this, do not hear it.
+
+    They end with this process, where each of them would print where it was interrupted.
+    """
+    from multiprocessing import resource_tracker
+
+    if hasattr(signal, "pthread_sigmask"):
+        resource_tracker.ensure_running()  # later it would let SIGINT through again
+        signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+
+
+def release_semaphores() -> None:
+    """Give back the semaphores of the queues to workers, where the process ends at once.
+
+    Python does so at its own end. Otherwise its process that looks after them complains on stderr
+    that they leaked.
+    """
+    from multiprocessing import synchronize, util  # loaded with dask.distributed
+
+    cleanup = getattr(synchronize.SemLock, "_cleanup", None)
+    for finalizer in list(getattr(util, "_finalizer_registry", {}).values()):
+        if cleanup is not None and getattr(finalizer, "_callback", None) is cleanup:
+            with suppress(OSError, RuntimeError):  # it is gone, or just being given back
+                finalizer()

@@ -45,6 +45,7 @@ CLEARING_UP = {
     "solver.meshing.process": "kill",
     "bellows_design.files.atomic": "remove_unfinished",
     "bellows_design.progress.bar": "leave_terminal",
+    "bellows_design.batch.cluster": "release_semaphores",
 }
 """Modules, and their functions that clear up what is unfinished when a process ends at once."""
 

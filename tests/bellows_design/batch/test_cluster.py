@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import os
+import signal
+import subprocess
+import sys
 from contextlib import closing
 
 import psutil
@@ -44,6 +47,16 @@ def test_lanes_keep_to_their_workers_which_listen_on_the_loopback_only(monkeypat
     assert not psutil.Process(os.getpid()).children(recursive=True) or all(
         not psutil.pid_exists(int(process)) for _, process in workers
     )
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(os.name != "posix", reason="only there a terminal interrupts a whole group")
+def test_a_worker_does_not_hear_an_interruption():
+    with closing(Cluster(stub(0.5), ThisMachine(1))) as cluster:
+        first, second = questions(2)
+        worker = int(cluster.submit(first, 0).result().max_von_mises_mpa or 0)
+        os.kill(worker, signal.SIGINT)
+        assert cluster.submit(second, 0).result().max_von_mises_mpa == worker
 
 
 @pytest.mark.slow
@@ -108,3 +121,23 @@ def test_workers_share_the_memory_that_one_evaluation_may_take(monkeypatch):
     monkeypatch.setattr("bellows_design.batch.places.default_memory", lambda: 4.0)
     memory = [ThisMachine(workers).budget.memory for workers in (1, 2, 100)]
     assert memory == [4.0, 2.0, LEAST_MEMORY]
+
+
+ENDING = """
+import multiprocessing, os
+from bellows_design.batch.cluster import release_semaphores
+
+queue = multiprocessing.get_context("spawn").Queue()
+if {released}:
+    release_semaphores()
+os._exit(0)
+"""
+
+
+@pytest.mark.thorough
+@pytest.mark.skipif(os.name != "posix", reason="semaphores have names on POSIX systems only")
+@pytest.mark.parametrize("released", [True, False])
+def test_a_process_that_ends_at_once_leaks_no_semaphores(released: bool) -> None:
+    command = [sys.executable, "-c", ENDING.format(released=released)]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert ("leaked" in done.stderr) is not released
