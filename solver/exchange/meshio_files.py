@@ -23,7 +23,17 @@ one with more is a set for each value but 0."""
 MOST_SETS = 64
 """A field of whole numbers with more values than this is no sets, but a numbering."""
 
-PHYSICAL = "gmsh:physical"
+GMSH, PHYSICAL = "gmsh", "gmsh:physical"
+
+SURFACE_RANK = 2
+"""Dimension of a physical group of triangles; a volume's is one more."""
+
+ADVICE = {
+    GMSH: "; of Gmsh's files those of versions 4.1 and 2.2 are read "
+    "(Mesh.MshFileVersion), of physical groups alone (Mesh.SaveAll = 0)",
+    "vtu": "; of VTK's compressions zlib, lzma and none are read",
+}
+"""What is said behind the reason why a file of a kind cannot be read."""
 
 
 def read_meshio(path: Path, kind: str) -> Found:
@@ -37,6 +47,8 @@ def read_meshio(path: Path, kind: str) -> Found:
     wide = [cells for kind, cells in blocks if kind in TETRAHEDRA and len(cells)]
     tets = np.concatenate(wide) if wide else np.zeros((0, 4), np.int64)
     triangles, elements = _cell_sets(mesh, blocks)
+    if kind == GMSH:
+        _check_groups(mesh, {*triangles, *elements})
     return Found(nodes, reordered(tets), triangles, {}, _node_sets(mesh), elements)
 
 
@@ -54,7 +66,7 @@ def _content(path: Path, kind: str) -> Any:
         reason = " ".join(str(error).split())
         raise SolverError(
             f"it is no {kind} file that can be read ({type(error).__name__}"
-            f"{': ' + reason if reason else ''})."
+            f"{': ' + reason if reason else ''}){ADVICE.get(kind, '')}."
         ) from None
 
 
@@ -67,6 +79,16 @@ def _check_kinds(kinds: list[str]) -> None:
         )
     if set(TETRAHEDRA) <= set(kinds):
         raise SolverError("it has four-node and ten-node tetrahedra; one kind only is read.")
+
+
+def _check_groups(mesh: Any, sets: set[str]) -> None:
+    """Raise ``SolverError`` if a file names groups and no element is in any of them."""
+    named = {name for name, (_, rank) in mesh.field_data.items() if rank >= SURFACE_RANK}
+    if named and not named & sets:
+        raise SolverError(
+            f"it names physical groups ({', '.join(sorted(named))}), but no triangle or "
+            "tetrahedron is in one; save it again with Gmsh's Mesh.SaveAll = 0."
+        )
 
 
 def _cell_sets(
@@ -99,8 +121,8 @@ def _members(mesh: Any, blocks: list[tuple[str, Numbers]]) -> dict[str, list[Num
         if not name.startswith("gmsh:")
     }
     for key, values in mesh.cell_data.items():
-        if key == PHYSICAL and not found:
-            found |= _physical_groups(mesh, blocks, values)
+        if key == PHYSICAL:
+            found = _physical_groups(mesh, blocks, values) | found
         elif ":" not in key:
             found |= _flagged(key, [np.asarray(each) for each in values])
     return found
@@ -113,7 +135,7 @@ def _physical_groups(
     names = {(int(tag), int(rank)): name for name, (tag, rank) in mesh.field_data.items()}
     found: dict[str, list[Numbers]] = {}
     for place, ((kind, _), tags) in enumerate(zip(blocks, values, strict=True)):
-        rank = 3 if kind in TETRAHEDRA else 2
+        rank = SURFACE_RANK + (kind in TETRAHEDRA)
         for tag in np.unique(tags):
             if tag == 0 or kind not in (*TETRAHEDRA, *TRIANGLES):
                 continue

@@ -14,8 +14,8 @@ import numpy as np
 from solver.arrays import Reals
 from solver.exchange.found import Numbers
 
-CELL_TYPES = {"tetra10": 38, "triangle6": 36}
-"""Numbers of XDMF's cell types, by meshio's names; their order of nodes is VTK's."""
+CELL_TYPES = {"tetra10": ("Tetrahedron_10", 38), "triangle6": ("Triangle_6", 36)}
+"""Names and numbers of XDMF's cell types, by meshio's names; their order of nodes is VTK's."""
 
 
 def write_xdmf(
@@ -29,9 +29,7 @@ def write_xdmf(
     root = xml.Element("Xdmf", Version="3.0")
     grid = xml.SubElement(xml.SubElement(root, "Domain"), "Grid", Name="Grid")
     _add(xml.SubElement(grid, "Geometry", GeometryType="XYZ"), np.asarray(nodes, float))
-    number = str(sum(len(each) for _, each in cells))
-    topology = xml.SubElement(grid, "Topology", TopologyType="Mixed", NumberOfElements=number)
-    _add(topology, np.concatenate([_numbered(*block).ravel() for block in cells]))
+    _add_topology(grid, cells)
     for name, values in point_data.items():
         _add_field(grid, name, "Node", np.asarray(values))
     for name, parts in cell_data.items():
@@ -40,9 +38,19 @@ def write_xdmf(
     xml.ElementTree(root).write(path, encoding="utf-8", xml_declaration=True)
 
 
+def _add_topology(grid: xml.Element, cells: Sequence[tuple[str, Numbers]]) -> None:
+    """Cells of one type as a table, which meshio reads too, of several as a mixed list."""
+    number = str(sum(len(each) for _, each in cells))
+    ((kind, only), *others) = cells
+    name = "Mixed" if others else CELL_TYPES[kind][0]
+    topology = xml.SubElement(grid, "Topology", TopologyType=name, NumberOfElements=number)
+    mixed = np.concatenate([_numbered(*block).ravel() for block in cells]) if others else only
+    _add(topology, np.asarray(mixed, np.int64))
+
+
 def _numbered(kind: str, cells: Numbers) -> Numbers:
     """Cells (k, m), each behind the number of its type."""
-    return np.insert(np.asarray(cells, np.int64), 0, CELL_TYPES[kind], axis=1)
+    return np.insert(np.asarray(cells, np.int64), 0, CELL_TYPES[kind][1], axis=1)
 
 
 def _add_field(grid: xml.Element, name: str, where: str, values: Numbers) -> None:

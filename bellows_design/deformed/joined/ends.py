@@ -95,14 +95,18 @@ class End:
         """
         moved = self._deformed(ends)
         turned, shares = self._added(moved, bend).applied(moved), self.shares[:, None]
-        missed = self.spread @ self.match.missed(moved, cell.moved)
+        missed = self.spread @ self.match.missed(moved, self.carried(ends, cell))
         missed[self.piece.mesh.surface_nodes(SYMMETRY), 1] = 0.0  # they stay in their plane
         bent: Reals = moved + shares * (turned - moved) - (1 - shares) * missed
         return bent
 
     def joint(self, ends: BodyState, cell: BodyState) -> Motion:
         """The motion of a cell whose bubble's middle meets that of this end."""
-        return self._seen(self.match.motion(self._deformed(ends), cell.moved))
+        return self._seen(self.match.motion(self._deformed(ends), self.carried(ends, cell)))
+
+    def carried(self, ends: BodyState, cell: BodyState) -> Reals:
+        """Where the cell's displacement takes this section's nodes (k, 3), mm, in the cell."""
+        return self.match.carried(self._undeformed(ends), cell.nodes, cell.moved)
 
     def far(self, ends: BodyState, bend: float) -> Motion:
         """How what lies beyond the gap moves, as a rigid body."""

@@ -42,14 +42,24 @@ class Match:
         weights = _interpolation(one.nodes[nodes, 1:], other, other_section)
         return Match(nodes, weights)
 
-    def motion(self, one: Reals, other: Reals) -> Motion:
-        """What brings the ``other`` body (m, 3), mm, to the ``one`` (n, 3), where they join."""
-        return fitted(self.weights @ other, one[self.nodes])
+    def carried(self, one: Reals, other: Reals, moved: Reals) -> Reals:
+        """Where the other body's displacement takes the one's nodes of the section, (k, 3) in mm.
 
-    def missed(self, one: Reals, other: Reals) -> Reals:
-        """From the other body after that motion to the one, at the nodes (k, 3), mm."""
-        brought = self.motion(one, other).applied(self.weights @ other)
-        missed: Reals = one[self.nodes] - brought
+        ``one`` (n, 3): undeformed nodes of the one body; ``other`` and ``moved`` (m, 3): those of
+        the other, undeformed and deformed. That the two outlines of a rounded section differ, each
+        of its own edges, is no displacement: without load nothing moves.
+        """
+        places: Reals = self.weights @ moved
+        places[:, 1:] += one[self.nodes, 1:] - self.weights @ other[:, 1:]
+        return places
+
+    def motion(self, one: Reals, carried: Reals) -> Motion:
+        """What brings ``carried`` nodes (k, 3), mm, to the ``one`` body (n, 3), where they join."""
+        return fitted(carried, one[self.nodes])
+
+    def missed(self, one: Reals, carried: Reals) -> Reals:
+        """From the carried nodes (k, 3) after that motion to those of the one body, mm."""
+        missed: Reals = one[self.nodes] - self.motion(one, carried).applied(carried)
         return missed
 
     def spread(self, one: Mesh) -> csr_array:
@@ -64,11 +74,6 @@ class Match:
         rows = np.repeat(np.arange(len(one.nodes)), count)
         shape = (len(one.nodes), len(self.nodes))
         return csr_array((weights.ravel(), (rows, nearest.ravel())), shape)
-
-    def difference(self, one: Reals, other: Reals) -> Reals:
-        """Differences (k,) of values at the nodes of the bodies."""
-        differences: Reals = one[self.nodes] - self.weights @ other
-        return differences
 
 
 def _interpolation(places: Reals, other: Mesh, section: str) -> csr_array:

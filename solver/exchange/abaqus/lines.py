@@ -8,6 +8,9 @@ from pathlib import Path
 
 from solver.errors import SolverError
 
+WITH_DATA_ELSEWHERE = ("NODE", "ELEMENT")
+"""Keywords whose ``INPUT=`` names a file of lines of data."""
+
 DEEPEST = 8
 """Files within files: more is a file that includes itself."""
 
@@ -39,7 +42,7 @@ class Block:
 def blocks(path: Path, depth: int = 0) -> list[Block]:
     """The blocks of a file, and of those that it includes. Raises ``SolverError``, ``OSError``."""
     found: list[Block] = []
-    text = path.read_text("utf-8", errors="replace")
+    text = path.read_text("utf-8-sig", errors="replace")
     for number, line in enumerate(_joined(text.splitlines()), start=1):
         content, place = line.strip(), f"line {number}" if not depth else f"{path.name}, {number}"
         if not content or content.startswith("**"):
@@ -50,7 +53,9 @@ def blocks(path: Path, depth: int = 0) -> list[Block]:
         block = _block(content, place)
         found.append(block)
         if block.keyword == "INCLUDE":
-            found += _included(path, block, depth)
+            found += blocks(_other(path, block, depth), depth + 1)
+        elif block.keyword in WITH_DATA_ELSEWHERE and "INPUT" in block.parameters:
+            _add_file_of_data(found, _other(path, block, depth))
     return found
 
 
@@ -81,11 +86,21 @@ def _add_data(found: list[Block], content: str, place: str) -> None:
     found[-1].lines.append(Line(place, fields))
 
 
-def _included(path: Path, block: Block, depth: int) -> list[Block]:
-    """The blocks of an included file, which is looked for beside ``path``."""
+def _add_file_of_data(found: list[Block], path: Path) -> None:
+    text = path.read_text("utf-8-sig", errors="replace")
+    for number, line in enumerate(text.splitlines(), start=1):
+        content = line.strip()
+        if content.startswith("*") and not content.startswith("**"):
+            raise SolverError(f"{path.name}, {number}: a keyword among lines of data.")
+        if content and not content.startswith("**"):
+            _add_data(found, content, f"{path.name}, {number}")
+
+
+def _other(path: Path, block: Block, depth: int) -> Path:
+    """The file that a block names, beside ``path``."""
     other = path.parent / block.parameter("INPUT")
     if depth >= DEEPEST:
         raise SolverError(f"{block.place}: more than {DEEPEST} files within each other.")
     if not other.is_file():
         raise SolverError(f"{block.place}: there is no file {str(other)!r} to include.")
-    return blocks(other, depth + 1)
+    return other

@@ -37,7 +37,7 @@ class _Reader:
         self.triangles: dict[int, list[int]] = {}
         self.other: set[int] = set()
         self.sets = Sets()
-        self._first_part = ""
+        self._instances = 0
 
     def take(self, block: Block) -> None:
         """Read one block; keywords that say nothing of the mesh are passed over."""
@@ -48,10 +48,10 @@ class _Reader:
         reads = {
             "NODE": self._nodes,
             "ELEMENT": self._elements,
-            "NSET": self.sets.nodes,
+            "NSET": self._node_set,
             "ELSET": self.sets.elements,
             "SURFACE": self.sets.surface,
-            "INSTANCE": _check_instance,
+            "INSTANCE": self._instance,
         }
         if block.keyword in reads:
             reads[block.keyword](block)
@@ -85,6 +85,25 @@ class _Reader:
                 table[label] = numbers[1:]
             labels.append(label)
         self.sets.add_elements(block.parameters.get("ELSET", ""), labels)
+
+    def _node_set(self, block: Block) -> None:
+        """A set of nodes; with ``ELSET=`` the nodes of those elements."""
+        if "ELSET" not in block.parameters:
+            self.sets.nodes(block)
+            return
+        cells = [
+            table[label]
+            for label in self.sets.elements_of(block)
+            for table in (self.tets, self.triangles)
+            if label in table
+        ]
+        self.sets.add_nodes(block.parameter("NSET"), sorted(set().union(*cells)))
+
+    def _instance(self, block: Block) -> None:
+        _check_instance(block)
+        self._instances += 1
+        if self._instances > 1:
+            raise SolverError(f"{block.place}: a second instance; one, of one part, is read.")
 
     def _table(self, kind: str, block: Block) -> tuple[dict[int, list[int]] | None, int]:
         """Where elements of a kind are kept (None: nowhere), and their number of nodes (0: any)."""

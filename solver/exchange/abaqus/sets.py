@@ -17,6 +17,14 @@ if TYPE_CHECKING:
 FACE_NAMES = {f"{letter}{k + 1}": k for k in range(4) for letter in "SP"}
 
 
+MOST_GENERATED = 50_000_000
+"""Labels of one line: more than any mesh that fits into memory has."""
+
+
+LARGEST = 2**62
+"""Label that arrays of 64 bit hold with room."""
+
+
 class Sets:
     """Sets as they are read; names count without regard to case, the first spelling is kept."""
 
@@ -39,6 +47,13 @@ class Sets:
         if "INTERNAL" in block.parameters:
             self._internal.add(name)
         self._elements.setdefault(name, []).extend(_members(block, self._elements))
+
+    def elements_of(self, block: Block) -> list[int]:
+        """Elements of the set that a block names. Raises ``SolverError``."""
+        name = block.parameter("ELSET")
+        if name.upper() not in self._elements:
+            raise SolverError(f"{block.place}: there is no set of elements {name!r} above.")
+        return self._elements[name.upper()]
 
     def add_nodes(self, name: str, labels: list[int]) -> None:
         """Nodes that are put into a set where they are given."""
@@ -115,9 +130,12 @@ def integer(line: Line, place: int, what: str = "a whole number") -> int:
     """A field as a whole number. Raises ``SolverError``."""
     text = line.fields[place] if place < len(line.fields) else ""
     try:
-        return int(text)
+        number = int(text)
     except ValueError:
         raise SolverError(f"{line.place}: needs {what}, got {text!r}.") from None
+    if abs(number) > LARGEST:
+        raise SolverError(f"{line.place}: {text} is too large; {LARGEST} is the largest label.")
+    return number
 
 
 def _members(block: Block, sets: Mapping[str, list[int]]) -> list[int]:
@@ -143,4 +161,7 @@ def _generated(line: Line) -> range:
     step = integer(line, 2) if len(line.fields) > 2 and line.fields[2] else 1
     if step == 0:
         raise SolverError(f"{line.place}: the step must not be 0.")
-    return range(first, last + (1 if step > 0 else -1), step)
+    labels = range(first, last + (1 if step > 0 else -1), step)
+    if (last - first) // step >= MOST_GENERATED:
+        raise SolverError(f"{line.place}: a set of more than {MOST_GENERATED} labels.")
+    return labels

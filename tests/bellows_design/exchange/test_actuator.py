@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 import meshio
@@ -19,6 +21,7 @@ from bellows_design.design.overrides import with_overrides
 from bellows_design.design.shipped import load_design
 from bellows_design.errors import DesignError
 from bellows_design.exchange import write_actuator
+from solver.exchange.abaqus.cells import reordered
 
 pytestmark = pytest.mark.thorough
 
@@ -79,6 +82,19 @@ def test_xdmf_holds_the_same(evaluation: Evaluation, tmp_path: Path) -> None:
     assert vtk_to_numpy(grid.GetPointData().GetArray("von_mises_mpa")) == pytest.approx(
         body.von_mises
     )
+
+
+def test_meshio_reads_the_xdmf_too(
+    evaluation: Evaluation, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It imports h5py even for files that have no HDF5."""
+    monkeypatch.setitem(sys.modules, "h5py", ModuleType("h5py"))
+    body = deformed_actuator(evaluation)
+    write_actuator(body, tmp_path / "bent.xdmf")
+    read = meshio.read(tmp_path / "bent.xdmf")
+    assert read.points == pytest.approx(body.mesh.nodes, abs=1e-12)
+    assert np.array_equal(read.cells_dict["tetra10"], reordered(body.mesh.tets))
+    assert read.point_data["displacement_mm"] == pytest.approx(body.displacement, abs=1e-12)
 
 
 def test_other_endings_are_refused(evaluation: Evaluation, tmp_path: Path) -> None:

@@ -85,6 +85,7 @@ def test_a_surface_may_name_single_elements(tmp_path: Path) -> None:
         "*NSET, NSET=bottom, INSTANCE=Part-1-1\n 10, 20, 30\n",
         "*NSET, NSET=low\n10, 20, 30\n*SURFACE, TYPE=NODE, NAME=bottom\nlow, 1.5\n",
         "** a comment\n\n*NSET, NSET=bottom\n 10 , 20\n** another\n 30\n",
+        "*ELEMENT, TYPE=M3D3, ELSET=foil\n6, 10, 20, 30\n*NSET, NSET=bottom, ELSET=foil\n",
     ],
 )
 def test_a_set_of_nodes_is_the_faces_in_it(sets: str, tmp_path: Path) -> None:
@@ -132,6 +133,23 @@ def test_included_files_are_read_from_beside(tmp_path: Path) -> None:
     assert len(read(text, tmp_path).nodes) == 10
 
 
+def test_lines_of_data_are_read_from_files_beside(tmp_path: Path) -> None:
+    (tmp_path / "nodes.txt").write_text("** of the part\n" + NODES.partition("\n")[2])
+    (tmp_path / "elements.txt").write_text("5, 10, 20, 30, 40\n")
+    text = "*NODE, INPUT=nodes.txt\n*ELEMENT, TYPE=C3D4, INPUT=elements.txt\n"
+    assert len(read(text, tmp_path).nodes) == 10
+    (tmp_path / "elements.txt").write_text("5, 10, 20, 30\n")
+    with pytest.raises(SolverError, match=r"job\.inp: elements\.txt, 1: element 5 has 3 of 4"):
+        read(text, tmp_path)
+    (tmp_path / "elements.txt").write_text("*STEP\n")
+    with pytest.raises(SolverError, match=r"elements\.txt, 1: a keyword among lines of data"):
+        read(text, tmp_path)
+
+
+def test_a_byte_order_mark_is_passed_over(tmp_path: Path) -> None:
+    assert len(read("\N{ZERO WIDTH NO-BREAK SPACE}" + ONE, tmp_path).tets) == 1
+
+
 @pytest.mark.parametrize(
     ("text", "sentence"),
     [
@@ -153,6 +171,11 @@ def test_included_files_are_read_from_beside(tmp_path: Path) -> None:
         (ONE + "*NGEN\n1, 2\n", "line 8: *NGEN is not read"),
         (ONE + "*NSET, NSET=a, GENERATE\n1, 9, 0\n", "line 9: the step must not be 0"),
         (ONE + "*INSTANCE, NAME=b\n1., 0., 0.\n", "the instance 'b' is moved from its part"),
+        (ONE + 2 * "*INSTANCE, NAME=b\n", "line 9: a second instance; one, of one part, is read"),
+        (ONE + "*NSET, NSET=a, ELSET=b\n", "line 8: there is no set of elements 'b' above"),
+        (ONE + "*ELSET, ELSET=a, GENERATE\n1, 1000000000000\n", "a set of more than 50000000"),
+        (ONE + f"*NSET, NSET=a\n{10**20}\n", f"line 9: {10**20} is too large"),
+        (NODES + "*ELEMENT, TYPE=C3D4, INPUT=no.txt\n", "line 6: there is no file"),
         (ONE + "*INCLUDE, INPUT=no.inc\n", "line 8: there is no file"),
         (ONE + "*INCLUDE, INPUT=job.inp\n", "more than 8 files within each other"),
         (NODES.replace("*Node", "*Node, system=C") + "*ELEMENT", "another than rectangular"),

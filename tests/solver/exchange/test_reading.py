@@ -147,6 +147,32 @@ def test_gmshs_input_files_for_abaqus_are_read(gmsh_model: object, tmp_path: Pat
     _check_boxes(read_mesh(tmp_path / "boxes.inp"))
 
 
+def test_groups_without_a_name_stand_beside_named_ones(gmsh_model: object, tmp_path: Path) -> None:
+    gmsh = gmsh_model
+    right = gmsh.model.getEntitiesInBoundingBox(2.9, -0.1, -0.1, 3.1, 1.1, 1.1, 2)
+    gmsh.model.addPhysicalGroup(2, [tag for _, tag in right], 5)
+    gmsh.write(str(tmp_path / "boxes.msh"))
+    mesh = read_mesh(tmp_path / "boxes.msh")
+    assert set(mesh.surfaces) == {"left", "physical_5"}
+    assert mesh.nodes[mesh.surfaces["physical_5"], 0] == pytest.approx(3.0)
+
+
+@pytest.mark.parametrize(
+    ("version", "sentence"),
+    [(2.2, r"names physical groups \(left, long, short\), but"), (4.1, "can be read")],
+)
+def test_groups_that_were_not_saved_are_said(
+    version: float, sentence: str, gmsh_model: object, tmp_path: Path
+) -> None:
+    """Gmsh's 2.2 then has the names alone, its 4.1 groups of some elements."""
+    gmsh = gmsh_model
+    gmsh.option.setNumber("Mesh.MshFileVersion", version)
+    gmsh.option.setNumber("Mesh.SaveAll", 1)
+    gmsh.write(str(tmp_path / "boxes.msh"))
+    with pytest.raises(SolverError, match=rf"^boxes\.msh: it .*{sentence}.*Mesh\.SaveAll = 0"):
+        read_mesh(tmp_path / "boxes.msh")
+
+
 def _check_boxes(mesh: Mesh) -> None:
     from solver.mesh.checks import check_elements
     from solver.mesh.mid_nodes import jacobian_ratios

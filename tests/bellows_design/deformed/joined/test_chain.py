@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
 import pytest
 from closed_surfaces import open_edges, volume_inside, volume_of_cells
 from kept import small
@@ -10,6 +9,7 @@ from kept import small
 from bellows_design.analysis.mesh_plan import first_plan
 from bellows_design.analysis.models import FREE_CELL, HALF, UNIT_CELL, shortened
 from bellows_design.deformed.joined.chain import Chain
+from bellows_design.deformed.joined.cutting import ON_PLANE
 from bellows_design.deformed.joined.state import ActuatorState, BodyState
 from bellows_design.deformed.whole import WholeSurface
 from bellows_design.design.design import Design
@@ -40,13 +40,16 @@ def test_it_is_the_cad_body_and_watertight(count: int, free: bool) -> None:
 
 @pytest.mark.thorough
 def test_nothing_moves_without_load() -> None:
+    """Though the outlines of cell and ends are up to 0.03 mm apart where the bubble is rounded.
+
+    Nodes that are nearer to the cut than ``ON_PLANE`` count as in it.
+    """
     design = small()
     for free in (False, True):
         chain, state = _at_rest(design, free)
         placed = chain.at_rest(design.bellows, state), chain.loaded(design.bellows, state)
         rest, loaded = (chain.assembled.positions(each) for each in placed)
-        assert loaded == pytest.approx(rest, abs=0.05)  # by which curved outlines differ
-        assert np.abs(loaded - rest).mean() < 1e-3
+        assert loaded == pytest.approx(rest, abs=ON_PLANE)
 
 
 def _at_rest(design: Design, free: bool) -> tuple[Chain, ActuatorState]:
