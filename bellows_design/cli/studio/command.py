@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import signal
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from bellows_design.cli.answer import Answer, answer
+from bellows_design.cli.interruption import Interrupted
 from bellows_design.cli.options import DesignName, DesignOptions, Settings
 
 Port = Annotated[
@@ -42,7 +44,11 @@ def served(options: DesignOptions, port: int, browser: bool, output: Path) -> An
     design.profile()
     from bellows_design.studio.serving.running import Options, serve
 
-    serve(Options(design, port, browser=browser, output=output), _tell)
+    try:
+        serve(Options(design, port, browser=browser, output=output), _tell)
+    except Interrupted as interruption:
+        if interruption.number != signal.SIGINT:  # Ctrl-C is how it is meant to end
+            raise
     return Answer({}, ["The studio has ended."])
 
 

@@ -44,10 +44,16 @@ def wait_until_gone(processes: list[psutil.Process]) -> None:
     assert not alive
 
 
-@pytest.mark.parametrize(("number", "status"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+@pytest.mark.parametrize(
+    ("number", "status", "said"),
+    [
+        (signal.SIGINT, 0, "The studio has ended.\n"),
+        (signal.SIGTERM, 143, "nothing half-done was left behind"),
+    ],
+)
 @pytest.mark.thorough
 def test_a_signal_ends_server_and_processes_and_leaves_nothing(
-    number: int, status: int, tmp_path: Path
+    number: int, status: int, said: str, tmp_path: Path
 ) -> None:
     with started(tmp_path) as (command, address):
         with urllib.request.urlopen(address) as page:
@@ -56,8 +62,8 @@ def test_a_signal_ends_server_and_processes_and_leaves_nothing(
         assert len(processes) == 3
         command.send_signal(number)
         output, errors = command.communicate(timeout=30)
-        assert command.returncode == status and not output
-        assert "nothing half-done was left behind" in errors and "Traceback" not in errors
+        assert command.returncode == status
+        assert said in (output or errors) and "Traceback" not in errors
         wait_until_gone(processes)
     assert list(tmp_path.iterdir()) == []
 
