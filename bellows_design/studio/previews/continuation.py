@@ -81,6 +81,8 @@ def _length(near: LightNeighbourhood, design: Design) -> float:
 
 def _how(near: LightNeighbourhood, design: Design) -> str:
     what = "a coarse mesh of a design" if near.provisional else "an evaluated design"
-    sentence = f"continued from {what}, {100 * near.distance(design):.2g} % away"
+    far = near.distance(design)
+    away = f", {100 * far:.2g} % away" if far else " with the same cell"
+    sentence = f"continued from {what}{away}"
     count, before = design.bellows.bubble_count, near.anchor.design.bellows.bubble_count
     return sentence if count == before else f"{sentence}; {count} bubbles instead of {before}"

@@ -58,7 +58,7 @@ def test_errors_grow_with_the_distance(light: LightNeighbourhood) -> None:
     angles = [each.bending_angle_percent for each in found]
     stresses = [each.max_von_mises_percent for each in found]
     assert angles == sorted(angles) and stresses == sorted(stresses)
-    assert angles[2] > angles[0] + 1
+    assert angles[2] > angles[0] + 0.5 and stresses[2] > stresses[0] + 5
 
 
 def test_the_deformed_shape_has_the_bubbles_of_the_design(light: LightNeighbourhood) -> None:
@@ -92,6 +92,7 @@ def test_other_faces_are_a_start_themselves_until_they_are_evaluated(anchor: Eva
     assert anchors.continued(full, report()) is None
     first = coarse(anchors, full, report())
     assert first.state.error_estimate.bending_angle_percent is not None
+    assert first.state.error_estimate.max_von_mises_percent >= 35  # another mesh at the fillets
     second = anchors.continued(changed(full, {"bubble_width": 20.4}), report())
     assert second is not None and "a coarse mesh" in second.how
     again = anchors.continued(full, report())
