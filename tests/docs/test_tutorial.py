@@ -36,6 +36,7 @@ def test_commands_without_an_output_are_not_run() -> None:
     assert found["commands"] == "bellows list\n" and found["text"] == "old\n"
 
 
+@pytest.mark.slicer
 @pytest.mark.slow
 def test_the_commands_of_the_tutorial_print_what_stands_there() -> None:
     assert words(rerun(TUTORIAL)) == words(TUTORIAL)
