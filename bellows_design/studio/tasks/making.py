@@ -11,7 +11,13 @@ from bellows_design.studio.tasks.places import store_at
 from bellows_design.studio.workers.reporting import Report
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     Values = dict[str, Any]
+
+
+FIRST = (".stl", ".3mf", ".step", "_report.html", "_sheet.html")
+"""Endings of the files that most people want, in this order."""
 
 
 def run(values: Values, _: Values, report: Report) -> None:
@@ -30,7 +36,18 @@ def run(values: Values, _: Values, report: Report) -> None:
         approved=outcome.verdict.approved,
         reasons=[reason.message for reason in outcome.verdict.reasons],
         warnings=list(outcome.verdict.warnings),
-        not_judged=[f"{each.rule}: {each.why}" for each in outcome.verdict.not_judged],
+        not_judged=[
+            f"not judged: {each.rule}, as {each.why}" for each in outcome.verdict.not_judged
+        ],
         folder=None if folder is None else str(folder),
-        files=[] if folder is None else sorted(each.name for each in folder.iterdir()),
+        files=[] if folder is None else in_order_of_use(each.name for each in folder.iterdir()),
     )
+
+
+def in_order_of_use(names: Iterable[str]) -> list[str]:
+    """Names of an export's files: those that most people want, then the others by name."""
+
+    def place(name: str) -> int:
+        return next((n for n, ending in enumerate(FIRST) if name.endswith(ending)), len(FIRST))
+
+    return sorted(names, key=lambda name: (place(name), name))
