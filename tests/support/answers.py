@@ -38,4 +38,5 @@ def assert_fits(content: dict[str, Any], name: str | None = None) -> None:
     stated = content.get("schema", "")
     known = name or stated.removeprefix("bellows ").removesuffix(f" {VERSION}")
     assert known in schema_names(), f"there is no schema of {stated!r}"
-    assert not misfits(content, known)
+    found = misfits(content, known)
+    assert not found, found

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator
+from dataclasses import asdict
 from typing import Any
 
 import pytest
@@ -11,6 +13,7 @@ from jsonschema import Draft202012Validator
 
 from bellows_design.errors import DesignError
 from bellows_design.schemas.library import RECORDS, address, bundled, label, schema, schema_names
+from printers.leak_test.result import Leak
 
 each_schema = pytest.mark.parametrize("name", schema_names())
 
@@ -107,3 +110,11 @@ def references_of(content: Any) -> Iterator[str]:
 def test_an_unknown_schema_is_named_with_what_is_near() -> None:
     with pytest.raises(DesignError, match="did you mean evaluate"):
         schema("evalute")
+
+
+def test_a_leak_has_the_fields_of_its_record() -> None:
+    """Most answers have none, so that the list is empty."""
+    leaks = schema("check")["$defs"]["leak_test"]["properties"]["leaks"]["items"]
+    found = asdict(Leak(ratio=1.2, width=0.4, place=(1.0, 2.0, 3.0)))
+    assert set(leaks["required"]) == set(leaks["properties"]) == set(found)
+    Draft202012Validator(leaks).validate(json.loads(json.dumps(found)))
