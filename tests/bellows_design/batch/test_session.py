@@ -46,9 +46,9 @@ def test_a_session_answers_from_the_start_that_is_asked_for():
 
 @pytest.mark.slow
 def test_a_design_that_cannot_be_evaluated_is_an_answer_too():
-    answer = Session(budget=Budget(seconds=0.01)).answer(Question(FINGER, "ordinary"))
+    answer = Session(budget=Budget(mesh_seconds=0.01)).answer(Question(FINGER, "ordinary"))
     assert answer.status == "failed"
-    assert answer.reason
+    assert "did not mesh the solid within" in answer.reason
 
 
 @dataclass(frozen=True, kw_only=True)
